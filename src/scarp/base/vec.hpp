@@ -1,0 +1,11 @@
+// A point or vector in Dim-dimensional space.
+#pragma once
+
+#include <array>
+
+namespace scarp {
+
+template <int Dim>
+using Vec = std::array<double, Dim>;
+
+}  // namespace scarp

@@ -1,0 +1,29 @@
+// The one list of constitutive models. A new model adds its header and its name to `AnyModel`.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scarp/material/description.hpp"
+#include "scarp/material/linear_elastic.hpp"
+#include "scarp/material/subloading.hpp"
+
+namespace scarp {
+
+/// A model with its constants; dispatched once per block of points.
+using AnyModel = std::variant<LinearElastic, Subloading>;
+
+/// Descriptions of all models, in the order of the list.
+std::vector<ModelDescription> model_descriptions();
+
+/// The model called `name` with constants from `values`. On a bad, unknown or missing constant, or an unknown name
+/// (Problem::key "model"), the result is the list of problems; warnings do not prevent a result.
+struct ModelResult {
+  std::optional<AnyModel> model;
+  std::vector<Problem> problems;
+  std::vector<Problem> warnings;
+};
+ModelResult make_model(const std::string& name, const std::map<std::string, double>& values);
+
+}  // namespace scarp
