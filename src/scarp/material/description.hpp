@@ -22,9 +22,9 @@ struct Bound {
 
 /// One constant of a model. Every constant is a finite double.
 struct ParameterInfo {
-  std::string key;      ///< the key in input files, e.g. "kappa"
-  std::string symbol;   ///< as in the documents, e.g. "κ̄"
-  std::string unit;     ///< "-", "stress", ...
+  std::string key;     ///< the key in input files, e.g. "kappa"
+  std::string symbol;  ///< as in the documents, e.g. "κ̄"
+  std::string unit;    ///< "-", "stress", ...
   std::string meaning;
   std::optional<Bound> low, high;
   std::optional<double> standard;  ///< used where the key is left out; without it the key is required

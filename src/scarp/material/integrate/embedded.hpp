@@ -1,0 +1,143 @@
+// Explicit integration of a law over a strain increment with embedded Runge–Kutta pairs and automatic error control.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "scarp/material/state.hpp"
+
+namespace scarp {
+
+/// Modified Euler (Heun) 2(1): the solution of order 2, the error from its difference to forward Euler.
+struct ModifiedEuler {
+  static constexpr int stages = 2;
+  static constexpr double order = 2;  ///< of the local error estimate: step factor (tol/err)^(1/order)
+  static constexpr std::array<std::array<double, 1>, 2> a{{{0}, {1}}};
+  static constexpr std::array<double, 2> b{0.5, 0.5};
+  static constexpr std::array<double, 2> e{-0.5, 0.5};
+};
+
+/// Dormand & Prince (1980) 5(4).
+struct DormandPrince {
+  static constexpr int stages = 7;
+  static constexpr double order = 5;
+  static constexpr std::array<std::array<double, 6>, 7> a{{
+      {0, 0, 0, 0, 0, 0},
+      {1.0 / 5, 0, 0, 0, 0, 0},
+      {3.0 / 40, 9.0 / 40, 0, 0, 0, 0},
+      {44.0 / 45, -56.0 / 15, 32.0 / 9, 0, 0, 0},
+      {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729, 0, 0},
+      {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656, 0},
+      {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84},
+  }};
+  static constexpr std::array<double, 7> b{35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84, 0};
+  static constexpr std::array<double, 7> e{71.0 / 57600,      0,          -71.0 / 16695, 71.0 / 1920,
+                                           -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+};
+
+/// One trial of a pair over the whole of `deps`.
+template <class State, class T>
+struct Trial {
+  State state;
+  T error;         ///< relative, in the model's norm
+  Notes<T> notes;  ///< `sound` there: every stage and the end admissible, and the law solvable
+};
+
+template <class Pair, class Model, class State, class T, int N>
+inline Trial<State, T> attempt(const Model& model, const State& s, const Sym<T, N>& deps, double tolerance) {
+  std::array<State, Pair::stages> k;
+  auto first = model.rate(s, deps);
+  k[0] = first.change;
+  Mask<T> sound = first.sound;
+  for (std::size_t i = 1; i < Pair::stages; ++i) {
+    State stage = s;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (Pair::a[i][j] != 0) stage = advanced(stage, T(Pair::a[i][j]), k[j]);
+    }
+    auto at = model.rate(stage, deps);
+    k[i] = at.change;
+    sound = sound && at.sound;
+  }
+  State next = s, error = k[0];
+  for_each_component([](auto& x) { x = T(Pair::e[0]) * x; }, error);
+  next = advanced(next, T(Pair::b[0]), k[0]);
+  for (std::size_t i = 1; i < Pair::stages; ++i) {
+    if (Pair::b[i] != 0) next = advanced(next, T(Pair::b[i]), k[i]);
+    if (Pair::e[i] != 0) error = advanced(error, T(Pair::e[i]), k[i]);
+  }
+  Trial<State, T> trial{next, model.error_norm(next, error), {}};
+  trial.notes = model.accept(trial.state, tolerance);
+  trial.notes.sound = trial.notes.sound && sound;
+  return trial;
+}
+
+struct IntegrationSettings {
+  double tolerance = 1e-4;         ///< relative error of one substep, all state variables in one norm
+  double smallest_substep = 1e-7;  ///< share of the increment
+};
+
+enum class IntegrationEnd { done, not_converged, unstable, inadmissible };
+
+struct IntegrationReport {
+  int substeps = 0;  ///< accepted
+  int rejected = 0;
+  double reached = 0;  ///< share of the increment that was integrated; 1 when done
+  IntegrationEnd end = IntegrationEnd::done;
+  Notes<double> notes{};
+};
+
+/// Integrates `state` over `deps` (compression positive), substep by substep. When an error below the tolerance needs
+/// less than the smallest substep, `state` is left at the last accepted one and the report says how far it came.
+/// `start` is the first substep to try, as a share of the increment.
+template <class Pair, class Model, class State, int N>
+IntegrationReport integrate(const Model& model, State& state, const Sym<double, N>& deps,
+                            const IntegrationSettings& settings, double start = 1.0) {
+  IntegrationReport report;
+  if (dot(deps, deps) == 0.0) {
+    report.reached = 1;
+    report.substeps = 1;
+    State same = state;  // a point that does not strain keeps its state to the last bit
+    report.notes = model.accept(same, settings.tolerance);
+    return report;
+  }
+  double step = start, t = 0;
+  bool grew_possible = true;
+  while (t < 1.0) {
+    step = std::min(step, 1.0 - t);
+    // A remainder of round-off size would be a substep of its own.
+    if (1.0 - t - step < 1e-12) step = 1.0 - t;
+    const auto part = step * deps;
+    const auto trial = attempt<Pair>(model, state, part, settings.tolerance);
+    const bool sound = trial.notes.sound;
+    const bool good = sound && trial.error <= settings.tolerance;  // a NaN error is not good
+    const double ratio = settings.tolerance / std::max(trial.error, 1e-16 * settings.tolerance);
+    double factor = std::isfinite(trial.error) ? 0.9 * std::pow(ratio, 1.0 / Pair::order) : 0.1;
+    if (good) {
+      state = trial.state;
+      const bool corrected = report.notes.corrected || trial.notes.corrected;
+      report.notes = trial.notes;
+      report.notes.corrected = corrected;
+      ++report.substeps;
+      t = (step == 1.0 - t) ? 1.0 : t + step;
+      step *= std::clamp(factor, 0.2, grew_possible ? 5.0 : 1.0);
+      grew_possible = true;
+    } else {
+      ++report.rejected;
+      grew_possible = false;
+      step *= sound ? std::clamp(factor, 0.1, 0.9) : 0.25;
+      if (step < settings.smallest_substep) {
+        report.end = !model.admissible(state)         ? IntegrationEnd::inadmissible
+                     : !model.rate(state, part).sound ? IntegrationEnd::unstable
+                                                      : IntegrationEnd::not_converged;
+        report.reached = t;
+        return report;
+      }
+    }
+  }
+  report.reached = 1;
+  return report;
+}
+
+}  // namespace scarp

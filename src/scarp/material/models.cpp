@@ -1,0 +1,98 @@
+#include "scarp/material/models.hpp"
+
+#include <fmt/format.h>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+namespace scarp {
+namespace {
+
+/// f(std::type_identity<Model>) for each model of the list.
+template <class F>
+void for_each_model(F&& f) {
+  [&]<class... Models>(std::type_identity<std::variant<Models...>>) {
+    (f(std::type_identity<Models>{}), ...);
+  }(std::type_identity<AnyModel>{});
+}
+
+std::string bounds_text(const ParameterInfo& info) {
+  std::string text;
+  if (info.low) text += fmt::format("{} {} ", info.low->value, info.low->open ? "<" : "<=");
+  text += info.key;
+  if (info.high) text += fmt::format(" {} {}", info.high->open ? "<" : "<=", info.high->value);
+  return text;
+}
+
+bool within(const ParameterInfo& info, double x) {
+  if (!std::isfinite(x)) return false;
+  if (info.low && (x < info.low->value || (info.low->open && x == info.low->value))) return false;
+  return !(info.high && (x > info.high->value || (info.high->open && x == info.high->value)));
+}
+
+/// The constants in full, standard values filled in; what is missing, unknown or out of bounds becomes a problem.
+std::map<std::string, double> checked(const ModelDescription& model, const std::map<std::string, double>& values,
+                                      std::vector<Problem>& problems) {
+  std::map<std::string, double> full;
+  for (const auto& info : model.parameters) {
+    const auto found = values.find(info.key);
+    if (found == values.end()) {
+      if (!info.standard) {
+        problems.push_back(
+            {info.key,
+             fmt::format("the constant {} ({}) of the model {} is missing", info.key, info.meaning, model.name), "",
+             fmt::format("add {} = ..., with {}", info.key, bounds_text(info))});
+      } else {
+        full[info.key] = *info.standard;
+      }
+      continue;
+    }
+    if (!within(info, found->second)) {
+      const bool finite = std::isfinite(found->second);
+      problems.push_back({info.key,
+                          fmt::format("{} must satisfy {}", info.key, finite ? bounds_text(info) : "being finite"),
+                          fmt::format("{}", found->second), fmt::format("{}: {}", info.symbol, info.meaning)});
+    }
+    full[info.key] = found->second;
+  }
+  for (const auto& [key, value] : values) {
+    bool known = false;
+    for (const auto& info : model.parameters) known = known || info.key == key;
+    if (!known) {
+      problems.push_back({key, fmt::format("the model {} has no constant {}", model.name, key),
+                          fmt::format("{}", value), fmt::format("`scarp models {}` lists its constants", model.name)});
+    }
+  }
+  return full;
+}
+
+}  // namespace
+
+std::vector<ModelDescription> model_descriptions() {
+  std::vector<ModelDescription> all;
+  for_each_model([&](auto model) { all.push_back(decltype(model)::type::description()); });
+  return all;
+}
+
+ModelResult make_model(const std::string& name, const std::map<std::string, double>& values) {
+  ModelResult result;
+  std::string names;
+  bool known = false;
+  for_each_model([&](auto model) {
+    using Model = typename decltype(model)::type;
+    const auto description = Model::description();
+    names += (names.empty() ? "" : ", ") + description.name;
+    if (description.name != name) return;
+    known = true;
+    const auto full = checked(description, values, result.problems);
+    if (!result.problems.empty()) return;
+    auto made = Model::from_values(full, result.problems, result.warnings);
+    if (result.problems.empty()) result.model = std::move(made);
+  });
+  if (!known) {
+    result.problems.push_back({"model", "there is no such model", '"' + name + '"', "choose one of " + names});
+  }
+  return result;
+}
+
+}  // namespace scarp
