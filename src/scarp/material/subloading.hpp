@@ -240,18 +240,17 @@ Notes<T> Subloading::accept(State<T, N>& s, double tolerance) const {
 
   const auto h = homothety(s);
   notes.corrected = h.R > T(1.0 + tolerance);
-  const T back = select(notes.corrected, T(1.0) / h.R, T(1.0));
-  s.sigma = s.a + back * (s.sigma - s.a);
+  const Sym<T, N> image = s.a + (T(1.0) / h.R) * (s.sigma - s.a);
+  for (int i = 0; i < N; ++i) s.sigma[i] = select(notes.corrected, image[i], s.sigma[i]);
 
   // At the floor the bonds are gone and so is the tensile strength: the point parts from the body, until it is
   // compressed.
   const T p = mean(s.sigma);
   notes.separated = (p <= T(0.0)) && (notes.on_floor || (p + T(c_.p_e) <= T(0.01 * c_.p_e)));
-  const T kept = select(notes.separated, T(0.0), T(1.0));
   notes.sound = notes.sound && (notes.separated || (h.exists && (p + T(c_.p_e) > T(0.0))));
   for (int i = 0; i < N; ++i) {
     s.sigma[i] = select(notes.separated, T(0.0), s.sigma[i]);
-    s.a[i] = kept * s.a[i];
+    s.a[i] = select(notes.separated, T(0.0), s.a[i]);
   }
   return notes;
 }

@@ -1,0 +1,88 @@
+#include "scarp/boundary/conditions.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "scarp/base/error.hpp"
+
+namespace scarp {
+
+template <int Dim>
+void fix(Conditions<Dim>& conditions, std::span<const int> nodes, int component) {
+  for (const int n : nodes) conditions.fixed[n] = static_cast<std::uint8_t>(conditions.fixed[n] | (1u << component));
+}
+
+template <int Dim>
+void wall(Conditions<Dim>& conditions, const Mesh<Dim>& mesh, std::span<const int> nodes, int component,
+          double friction) {
+  std::vector<char> chosen(mesh.node_count(), 0), below(mesh.node_count(), 0), above(mesh.node_count(), 0);
+  for (const int n : nodes) chosen[n] = 1;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    double centre = 0;
+    const auto local = mesh.element_nodes(e);
+    for (const int n : local) centre += mesh.nodes[n][component] / static_cast<double>(local.size());
+    for (const int n : local) {
+      if (chosen[n]) (centre > mesh.nodes[n][component] ? above : below)[n] = 1;
+    }
+  }
+  for (const int n : nodes) {
+    if (above[n] && below[n]) {
+      throw InputError(
+          "a wall with friction lies on the boundary of the mesh, with the mesh on one side",
+          fmt::format("the node at ({:g}, {:g}) with elements on both sides", mesh.nodes[n][0], mesh.nodes[n][1]),
+          "name nodes of one side of the mesh, or leave friction out");
+    }
+    conditions.normal[n] = static_cast<std::int8_t>(component);
+    conditions.inward[n] = above[n] ? 1.0 : -1.0;
+    conditions.friction[n] = friction;
+  }
+}
+
+template <int Dim>
+Vec<Dim> constrain_acceleration(const Conditions<Dim>& conditions, int n, double m, const Vec<Dim>& v, double dt,
+                                Vec<Dim>& a) {
+  Vec<Dim> friction_force{};
+  const int normal = conditions.normal[n];
+  if (normal >= 0) {
+    const double pushed = -conditions.inward[n] * a[normal];  // acceleration into the wall that it has to take
+    if (pushed > 0) {
+      a[normal] = 0;
+      double slip2 = 0;  // velocity along the wall if nothing held it
+      for (int j = 0; j < Dim; ++j) {
+        if (j != normal) slip2 += (v[j] + a[j] * dt) * (v[j] + a[j] * dt);
+      }
+      const double slip = std::sqrt(slip2);
+      const double stopped = slip > 0 ? std::min(1.0, conditions.friction[n] * pushed * dt / slip) : 0.0;
+      for (int j = 0; j < Dim; ++j) {
+        if (j == normal) continue;
+        const double change = -stopped * (v[j] + a[j] * dt) / dt;
+        a[j] += change;
+        friction_force[j] = m * change;
+      }
+    }
+  }
+  for (int j = 0; j < Dim; ++j) {
+    if (conditions.fixed[n] & (1u << j)) {
+      a[j] = 0;
+      friction_force[j] = 0;
+    }
+  }
+  return friction_force;
+}
+
+template <int Dim>
+void constrain_velocity(const Conditions<Dim>& conditions, int n, Vec<Dim>& v) {
+  const int normal = conditions.normal[n];
+  if (normal >= 0 && conditions.inward[n] * v[normal] < 0) v[normal] = 0;
+  for (int j = 0; j < Dim; ++j) {
+    if (conditions.fixed[n] & (1u << j)) v[j] = 0;
+  }
+}
+
+template void fix<2>(Conditions<2>&, std::span<const int>, int);
+template void wall<2>(Conditions<2>&, const Mesh<2>&, std::span<const int>, int, double);
+template Vec<2> constrain_acceleration<2>(const Conditions<2>&, int, double, const Vec<2>&, double, Vec<2>&);
+template void constrain_velocity<2>(const Conditions<2>&, int, Vec<2>&);
+
+}  // namespace scarp

@@ -1,0 +1,58 @@
+// Step 7 of the report for all points of a block: rotation, stress and state, many points per instruction. Points whose
+// increment needs more than one substep are finished apart.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "scarp/material/integrate/embedded.hpp"
+#include "scarp/points/points.hpp"
+
+namespace scarp::exec {
+
+/// What a stress update did, summed over points in a fixed order.
+struct StressBooks {
+  double work = 0;  ///< Σ Ω ½ (σ^t + σ^{t+dt}) : dε, with σ^t turned with the body
+  double critical_dt = std::numeric_limits<double>::infinity();  ///< least h / (c + |v|)
+  std::int64_t substeps = 0;
+  int most_substeps = 0;
+  std::int64_t failures = 0, corrected = 0, separated = 0, on_floor = 0, no_stiffness = 0;
+  int failed_id = -1;  ///< of the first failed point
+  IntegrationEnd failed_end = IntegrationEnd::done;
+
+  StressBooks& operator+=(const StressBooks& other);
+};
+
+/// Updates stress, state, strain measures and flags of all points from their deps and spin. `element_size` is the
+/// mesh's, for the critical time step.
+template <int Dim>
+StressBooks update_stresses(Block<Dim>& block, const std::vector<double>& element_size,
+                            const IntegrationSettings& settings);
+
+/// The least h / (c + |v|) over the points of a block, with c the compression wave speed of their present stiffness;
+/// infinite where no point has stiffness.
+template <int Dim>
+double critical_time_step(const Block<Dim>& block, const std::vector<double>& element_size);
+
+/// Calls f(model, state of point i with N components, compression positive) for point i of a block.
+template <int Dim, class F>
+void with_state(const Block<Dim>& block, int i, F&& f) {
+  std::visit(
+      [&]<class Model>(const Model& model) {
+        constexpr int N = sym_size<Dim>;
+        typename Model::template State<double, N> s;
+        int c = 0;
+        for_each_component(
+            [&](double& x) {
+              x = c < N ? -block.points.sigma[c][i] : block.state[c - N][i];
+              ++c;
+            },
+            s);
+        f(model, s);
+      },
+      block.model);
+}
+
+}  // namespace scarp::exec

@@ -1,0 +1,107 @@
+// The material points: structure of arrays, one block per region, so that a block has one law.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scarp/base/vec.hpp"
+#include "scarp/material/models.hpp"
+#include "scarp/tensor/sym.hpp"
+
+namespace scarp {
+
+/// Bits of Points::flags: what the last stress update met.
+enum PointFlag : std::uint8_t { flag_separated = 1, flag_on_floor = 2, flag_failed = 4, flag_corrected = 8 };
+
+/// Number of components of the spin in a Dim-dimensional analysis.
+template <int Dim>
+inline constexpr int spin_size = Dim == 2 ? 1 : 3;
+
+/// What every material point carries, whatever its soil. Tension positive, as in section 2 of the report. One entry
+/// per point in each array; per metre of thickness in plane strain.
+template <int Dim>
+struct Points {
+  using Column = std::vector<double>;
+  static constexpr int stress_size = sym_size<Dim>;
+
+  Column mass;                            ///< m_p
+  Column volume, initial_volume;          ///< Ω_p
+  std::array<Column, Dim> x, v, u, xi;    ///< position, velocity, displacement, local coordinates in the element
+  std::array<Column, stress_size> sigma;  ///< Cauchy stress, Mandel components
+  Column eps_q;                           ///< ∫ √(2/3) ‖dev dε‖
+  std::vector<int> element;               ///< element that holds the point
+  std::vector<int> id;                    ///< number at the start of the computation
+  std::vector<std::uint8_t> flags;        ///< PointFlag bits
+  std::vector<std::uint8_t> substeps;     ///< of the last stress update, at most 255
+  // Of the step under way:
+  std::array<Column, stress_size> deps;     ///< strain increment (eq. 10), Mandel components
+  std::array<Column, spin_size<Dim>> spin;  ///< spin increment (eq. 11): W_xy (, W_yz, W_zx)
+
+  int size() const { return static_cast<int>(mass.size()); }
+};
+
+/// The points of one region, with their law and its state.
+template <int Dim>
+struct Block {
+  std::string name;
+  AnyModel model;
+  Points<Dim> points;
+  std::vector<std::vector<double>>
+      state;  ///< columns of the model's state without sigma; compression positive, as in the model
+
+  // Order by element, kept by sort_by_element(): the points of the active element in slot s are
+  // order[begin[s]] ... order[begin[s + 1] - 1].
+  std::vector<int> order, begin;
+
+  int size() const { return points.size(); }
+};
+
+/// f(column) for each array of a block that has one entry per point (not order and begin).
+template <int Dim, class F>
+void for_each_column(Block<Dim>& b, F&& f) {
+  auto& p = b.points;
+  for (auto* column : {&p.mass, &p.volume, &p.initial_volume, &p.eps_q}) f(*column);
+  for (auto* group : {&p.x, &p.v, &p.u, &p.xi}) {
+    for (auto& column : *group) f(column);
+  }
+  for (auto& column : p.sigma) f(column);
+  for (auto& column : p.deps) f(column);
+  for (auto& column : p.spin) f(column);
+  f(p.element);
+  f(p.id);
+  f(p.flags);
+  f(p.substeps);
+  for (auto& column : b.state) f(column);
+}
+
+/// Sets the number of points, new entries zero.
+template <int Dim>
+void resize(Block<Dim>& block, int size) {
+  for_each_column(block, [size](auto& column) { column.resize(static_cast<std::size_t>(size)); });
+}
+
+/// The elements that hold points, ascending, and the place (slot) of each element in that list.
+struct ActiveElements {
+  std::vector<int> element;  ///< of each slot
+  std::vector<int> slot;     ///< of each element of the mesh; -1 where it holds no point
+
+  int size() const { return static_cast<int>(element.size()); }
+};
+
+/// Finds the active elements and orders the points of every block by them (stable: within an element by position in the
+/// arrays), after points have changed element.
+template <int Dim>
+void sort_by_element(std::vector<Block<Dim>>& blocks, int element_count, ActiveElements& active);
+
+/// Puts the arrays of every block into the order of sort_by_element(), so that sweeps over elements stream through
+/// memory.
+template <int Dim>
+void arrange_in_order(std::vector<Block<Dim>>& blocks);
+
+/// Takes out the points of a block for which gone[i] is set; the others keep their order.
+template <int Dim>
+void remove_points(Block<Dim>& block, const std::vector<std::uint8_t>& gone);
+
+}  // namespace scarp
