@@ -27,14 +27,14 @@ struct Grid {
 template <int Dim>
 struct Mesh {
   std::vector<Vec<Dim>> nodes;
-  std::vector<ElementType> types;   ///< one per element
-  std::vector<int> offsets;         ///< elements + 1; local nodes of e are connectivity[offsets[e] ... offsets[e+1])
+  std::vector<ElementType> types;  ///< one per element
+  std::vector<int> offsets;        ///< elements + 1; local nodes of e are connectivity[offsets[e] ... offsets[e+1])
   std::vector<int> connectivity;
   std::vector<double> size;         ///< one per element: its least height [m], for the critical time step
   std::vector<int> around_offsets;  ///< elements + 1; elements that share a node with e (e itself not) ...
   std::vector<int> around;          ///< ... ascending
   std::map<std::string, std::vector<int>> node_sets;  ///< ascending; "left" "right" "bottom" "top" and named groups
-  std::optional<Grid<Dim>> grid;    ///< set when the mesh is a structured grid
+  std::optional<Grid<Dim>> grid;                      ///< set when the mesh is a structured grid
 
   int element_count() const { return static_cast<int>(types.size()); }
   int node_count() const { return static_cast<int>(nodes.size()); }
