@@ -1,0 +1,113 @@
+#include "scarp/mesh/build.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scarp/mesh/shapes.hpp"
+
+namespace scarp {
+namespace {
+
+/// Elements of each node, as offsets and a list (ascending for each node).
+struct ElementsOfNodes {
+  std::vector<int> offsets, elements;
+};
+
+template <int Dim>
+ElementsOfNodes elements_of_nodes(const Mesh<Dim>& mesh) {
+  ElementsOfNodes of;
+  of.offsets.assign(mesh.nodes.size() + 1, 0);
+  for (int node : mesh.connectivity) ++of.offsets[node + 1];
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) of.offsets[n + 1] += of.offsets[n];
+  of.elements.resize(mesh.connectivity.size());
+  std::vector<int> next(of.offsets.begin(), of.offsets.end() - 1);
+  for (int e = 0; e < mesh.element_count(); ++e)
+    for (int node : mesh.element_nodes(e)) of.elements[next[node]++] = e;
+  return of;
+}
+
+}  // namespace
+
+template <int Dim>
+void build_around(Mesh<Dim>& mesh) {
+  const ElementsOfNodes of = elements_of_nodes(mesh);
+  mesh.around_offsets.assign(1, 0);
+  mesh.around.clear();
+  std::vector<int> found;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    found.clear();
+    for (int node : mesh.element_nodes(e))
+      found.insert(found.end(), of.elements.begin() + of.offsets[node], of.elements.begin() + of.offsets[node + 1]);
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    std::copy_if(found.begin(), found.end(), std::back_inserter(mesh.around), [e](int other) { return other != e; });
+    mesh.around_offsets.push_back(static_cast<int>(mesh.around.size()));
+  }
+}
+
+template void build_around<2>(Mesh<2>&);
+
+double element_size(const Mesh<2>& mesh, int e) {
+  return with_shape<2>(mesh.types[e], [&]<class Shape>(Shape) {
+    const NodePositions<Shape> x = node_positions<Shape>(mesh, e);
+    std::array<Vec<2>, Shape::nodes> edge;
+    std::array<double, Shape::nodes> length;
+    for (int i = 0; i < Shape::nodes; ++i) {
+      edge[i] = detail::minus(x[(i + 1) % Shape::nodes], x[i]);
+      length[i] = std::hypot(edge[i][0], edge[i][1]);
+    }
+    // For a triangle every corner spans the same area, so the least over corners is that over the longest edge.
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < Shape::nodes; ++i) {
+      const int j = (i + 1) % Shape::nodes;
+      least = std::min(least, std::abs(detail::cross(edge[i], edge[j])) / std::max(length[i], length[j]));
+    }
+    return least;
+  });
+}
+
+double element_area(const Mesh<2>& mesh, int e) {
+  const auto nodes = mesh.element_nodes(e);
+  const Vec<2>& first = mesh.nodes[nodes[0]];
+  double twice = 0;
+  for (std::size_t i = 1; i + 1 < nodes.size(); ++i)
+    twice += detail::cross(detail::minus(mesh.nodes[nodes[i]], first), detail::minus(mesh.nodes[nodes[i + 1]], first));
+  return 0.5 * twice;
+}
+
+double mesh_area(const Mesh<2>& mesh) {
+  double area = 0;
+  for (int e = 0; e < mesh.element_count(); ++e) area += element_area(mesh, e);
+  return area;
+}
+
+void add_side_sets(Mesh<2>& mesh) {
+  if (mesh.nodes.empty()) return;
+  Vec<2> low = mesh.nodes[0], high = low;
+  for (const Vec<2>& x : mesh.nodes)
+    for (int k = 0; k < 2; ++k) {
+      low[k] = std::min(low[k], x[k]);
+      high[k] = std::max(high[k], x[k]);
+    }
+  const auto add = [&](const char* name, int axis, double side) {
+    if (mesh.node_sets.contains(name)) return;
+    const double near = 1e-9 * (high[axis] - low[axis]);
+    std::vector<int>& set = mesh.node_sets[name];
+    for (int n = 0; n < mesh.node_count(); ++n)
+      if (std::abs(mesh.nodes[n][axis] - side) <= near) set.push_back(n);
+  };
+  add("left", 0, low[0]);
+  add("right", 0, high[0]);
+  add("bottom", 1, low[1]);
+  add("top", 1, high[1]);
+}
+
+void complete(Mesh<2>& mesh) {
+  build_around(mesh);
+  mesh.size.resize(mesh.types.size());
+  for (int e = 0; e < mesh.element_count(); ++e) mesh.size[e] = element_size(mesh, e);
+  add_side_sets(mesh);
+}
+
+}  // namespace scarp
