@@ -1,0 +1,27 @@
+// Quadrilaterals below, triangles above; the upper surface is in two physical groups (written twice in version 2.2).
+SetFactory("Built-in");
+Point(1) = {0, 0, 0, 0.5};
+Point(2) = {4, 0, 0, 0.5};
+Point(3) = {4, 1, 0, 0.5};
+Point(4) = {0, 1, 0, 0.5};
+Point(5) = {3, 3, 0, 0.4};
+Point(6) = {0, 3, 0, 0.7};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Line(5) = {3, 5};
+Line(6) = {5, 6};
+Line(7) = {6, 4};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Curve Loop(2) = {-3, 5, 6, 7};
+Plane Surface(2) = {2};
+Transfinite Curve {1, 3} = 7;
+Transfinite Curve {2, 4} = 4;
+Transfinite Surface {1};
+Recombine Surface {1};
+Physical Curve("interface") = {3};
+Physical Surface("lower") = {1};
+Physical Surface("upper") = {2};
+Physical Surface("all") = {1, 2};

@@ -1,0 +1,20 @@
+// Distorted quadrilaterals (recombined, all quads) of a quarter of a disc with a hole.
+SetFactory("Built-in");
+Point(1) = {1, 0, 0, 0.5};
+Point(2) = {3, 0, 0, 0.5};
+Point(3) = {0, 3, 0, 0.5};
+Point(4) = {0, 1, 0, 0.5};
+Point(5) = {0, 0, 0, 0.5};
+Line(1) = {1, 2};
+Circle(2) = {2, 5, 3};
+Line(3) = {3, 4};
+Circle(4) = {4, 5, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Transfinite Curve {1, 3} = 7 Using Progression 1.2;
+Transfinite Curve {2, 4} = 9;
+Transfinite Surface {1};
+Recombine Surface {1};
+Physical Curve("hole") = {4};
+Physical Curve("left") = {2};
+Physical Surface("soil") = {1};

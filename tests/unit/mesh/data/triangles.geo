@@ -1,0 +1,21 @@
+// An irregular triangle mesh of a slope, fine at the toe. Physical line "base", point "toe"; an unnamed line group 7.
+SetFactory("Built-in");
+Point(1) = {0, 0, 0, 1.0};
+Point(2) = {10, 0, 0, 1.5};
+Point(3) = {10, 2, 0, 1.5};
+Point(4) = {5, 2, 0, 0.25};
+Point(5) = {2, 5, 0, 0.6};
+Point(6) = {0, 5, 0, 0.8};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 1};
+Curve Loop(1) = {1, 2, 3, 4, 5, 6};
+Plane Surface(1) = {1};
+Physical Point("toe") = {4};
+Physical Curve("base") = {1};
+Physical Curve("slope") = {-4};
+Physical Curve(7) = {5};
+Physical Surface("soil") = {1};
