@@ -1,0 +1,264 @@
+#include "scarp/mesh/locate.hpp"
+
+#include <limits>
+
+namespace scarp {
+namespace {
+
+template <int Dim>
+struct Bounds {
+  Vec<Dim> low, high;
+};
+
+/// The box around each element, larger by a part of its extent: what counts as inside may lie a little outside.
+template <int Dim>
+std::vector<Bounds<Dim>> boxes_with_margin(const Mesh<Dim>& mesh, double margin) {
+  std::vector<Bounds<Dim>> boxes;
+  boxes.reserve(mesh.types.size());
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    const auto nodes = mesh.element_nodes(e);
+    Bounds<Dim> box{mesh.nodes[nodes[0]], mesh.nodes[nodes[0]]};
+    double extent = 0;
+    for (int k = 0; k < Dim; ++k) {
+      for (int node : nodes) {
+        box.low[k] = std::min(box.low[k], mesh.nodes[node][k]);
+        box.high[k] = std::max(box.high[k], mesh.nodes[node][k]);
+      }
+      extent = std::max(extent, box.high[k] - box.low[k]);
+    }
+    for (int k = 0; k < Dim; ++k) {
+      box.low[k] -= margin * extent;
+      box.high[k] += margin * extent;
+    }
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+/// Distance [m] from x to the farthest of the element's edge lines that x is beyond. Unlike local coordinates it means
+/// the same in elements of any size and shape, so it can say which of several elements is the nearest.
+double distance(const Mesh<2>& mesh, int e, const Vec<2>& x) {
+  const auto nodes = mesh.element_nodes(e);
+  double farthest = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vec<2>& from = mesh.nodes[nodes[i]];
+    const Vec<2> edge = detail::minus(mesh.nodes[nodes[(i + 1) % nodes.size()]], from);
+    farthest = std::max(farthest, detail::cross(detail::minus(x, from), edge) / std::hypot(edge[0], edge[1]));
+  }
+  return farthest;
+}
+
+}  // namespace
+
+template <int Dim>
+Locator<Dim>::Locator(const Mesh<Dim>& mesh) : mesh_(&mesh) {
+  double farthest = 0, smallest = std::numeric_limits<double>::infinity();
+  for (const Vec<Dim>& x : mesh.nodes)
+    for (double coordinate : x) farthest = std::max(farthest, std::abs(coordinate));
+  for (double size : mesh.size) smallest = std::min(smallest, size);
+  tolerance_ = std::clamp(8 * std::numeric_limits<double>::epsilon() * farthest / smallest, 1e-10, 1e-6);
+  if (mesh.grid) {
+    for (int k = 0; k < Dim; ++k) inverse_spacing_[k] = 1 / mesh.grid->spacing[k];
+  } else {
+    build_bins();
+  }
+}
+
+template <int Dim>
+Location<Dim> Locator<Dim>::find_in_other_cell(const Vec<Dim>& s, int hint, SearchCounts& counts) const {
+  const int steps = hint >= 0 ? 2 : 1;
+  std::array<int, Dim> index;
+  for (int k = 0; k < Dim; ++k) {
+    const int last = mesh_->grid->elements[k] - 1;
+    if (!(s[k] >= -tolerance_ && s[k] <= last + 1 + tolerance_)) {
+      counts.add(&SearchCounts::lost, steps);
+      return {-1, {}, steps};
+    }
+    index[k] = std::clamp(static_cast<int>(s[k]), 0, last);
+    if (index[k] > 0 && s[k] - index[k] <= tolerance_) --index[k];
+  }
+  int e = 0;
+  for (int k = Dim - 1; k >= 0; --k) e = e * mesh_->grid->elements[k] + index[k];
+  std::int64_t SearchCounts::*how = &SearchCounts::searched_all;
+  if (hint >= 0) {
+    const std::array<int, Dim> own = cell(hint);
+    int apart = 0;
+    for (int k = 0; k < Dim; ++k) apart = std::max(apart, std::abs(index[k] - own[k]));
+    how = apart <= 1 ? &SearchCounts::surrounding : &SearchCounts::walked;
+  }
+  counts.add(how, steps);
+  return place(e, index, s, steps);
+}
+
+template <int Dim>
+Location<Dim> Locator<Dim>::find_beyond(const Vec<Dim>& x, int hint, SearchCounts& counts) const {
+  Location<Dim> found;
+  std::int64_t SearchCounts::*how = &SearchCounts::surrounding;
+  int steps = 0;
+  if (hint >= 0) {
+    steps = 1;  // the hint itself, which find() has examined
+    for (int e : mesh_->elements_around(hint)) {
+      ++steps;
+      if (examine(e, x, found.xi) <= tolerance_) {
+        found.element = e;
+        break;
+      }
+    }
+    if (found.element < 0) {
+      how = &SearchCounts::walked;
+      found = walk(x, hint, steps);
+    }
+    if (found.element >= 0) {
+      found.steps = steps;
+      prefer_lowest(x, found);
+      steps = found.steps;
+    }
+  }
+  if (found.element < 0) {
+    found = search_all(x, steps);
+    how = found.element >= 0 ? &SearchCounts::searched_all : &SearchCounts::lost;
+  }
+  found.steps = steps;
+  counts.add(how, steps);
+  return found;
+}
+
+/// From the elements around the hint, always on to the elements around the nearest one seen so far, until one
+/// contains x or walk_limit elements were seen. No element is examined twice.
+template <int Dim>
+Location<Dim> Locator<Dim>::walk(const Vec<Dim>& x, int hint, int& steps) const {
+  struct Seen {
+    int element;
+    double distance;
+    bool left;
+  };
+  std::array<Seen, walk_limit> seen;
+  int count = 0;
+  seen[count++] = {hint, 0, true};
+  for (int e : mesh_->elements_around(hint))
+    if (count < walk_limit) seen[count++] = {e, distance(*mesh_, e, x), false};
+  Location<Dim> found;
+  while (true) {
+    Seen* nearest = nullptr;
+    for (int i = 0; i < count; ++i)
+      if (!seen[i].left && (!nearest || seen[i].distance < nearest->distance)) nearest = &seen[i];
+    if (!nearest) return {};
+    nearest->left = true;
+    for (int e : mesh_->elements_around(nearest->element)) {
+      if (std::any_of(seen.begin(), seen.begin() + count, [e](const Seen& s) { return s.element == e; })) continue;
+      if (count == walk_limit) return {};
+      ++steps;
+      if (examine(e, x, found.xi) <= tolerance_) {
+        found.element = e;
+        return found;
+      }
+      seen[count++] = {e, distance(*mesh_, e, x), false};
+    }
+  }
+}
+
+template <int Dim>
+Location<Dim> Locator<Dim>::search_all(const Vec<Dim>& x, int& steps) const {
+  Location<Dim> found;
+  std::array<int, Dim> bin;
+  if (!bin_of(x, bin)) return found;
+  const int b = bin_index(bin);
+  for (int i = bin_offsets_[b]; i < bin_offsets_[b + 1]; ++i) {
+    ++steps;
+    if (examine(bin_elements_[i], x, found.xi) <= tolerance_) {
+      found.element = bin_elements_[i];
+      return found;
+    }
+  }
+  return found;
+}
+
+/// A point on the boundary of the element found: the lowest of the elements that contain it, all of which share
+/// the boundary's nodes.
+template <int Dim>
+void Locator<Dim>::prefer_lowest(const Vec<Dim>& x, Location<Dim>& found) const {
+  const double beyond =
+      with_shape<Dim>(mesh_->types[found.element], [&]<class Shape>(Shape) { return Shape::beyond(found.xi); });
+  // Heights of neighbours may differ much, and with them what is near; a wide net costs little.
+  if (beyond < -1e-4) return;
+  for (int e : mesh_->elements_around(found.element)) {
+    if (e >= found.element) return;
+    ++found.steps;
+    Vec<Dim> xi;
+    if (examine(e, x, xi) <= tolerance_) {
+      found.element = e;
+      found.xi = xi;
+      return;
+    }
+  }
+}
+
+/// The bin that holds x; false when x is outside all bins.
+template <int Dim>
+bool Locator<Dim>::bin_of(const Vec<Dim>& x, std::array<int, Dim>& bin) const {
+  for (int k = 0; k < Dim; ++k) {
+    if (!(x[k] >= low_[k] && x[k] <= high_[k])) return false;
+    bin[k] = std::clamp(static_cast<int>((x[k] - low_[k]) * inverse_bin_[k]), 0, bins_[k] - 1);
+  }
+  return true;
+}
+
+/// Sorts the elements into about as many bins as there are elements.
+template <int Dim>
+void Locator<Dim>::build_bins() {
+  const int elements = mesh_->element_count();
+  const std::vector<Bounds<Dim>> boxes = boxes_with_margin(*mesh_, 4 * tolerance_);
+  low_.fill(std::numeric_limits<double>::infinity());
+  high_.fill(-std::numeric_limits<double>::infinity());
+  for (const Bounds<Dim>& box : boxes)
+    for (int k = 0; k < Dim; ++k) {
+      low_[k] = std::min(low_[k], box.low[k]);
+      high_[k] = std::max(high_[k], box.high[k]);
+    }
+  double volume = 1;
+  for (int k = 0; k < Dim; ++k) volume *= high_[k] - low_[k];
+  const double edge = std::pow(volume / std::max(elements, 1), 1.0 / Dim);
+  int total = 1;
+  for (int k = 0; k < Dim; ++k) {
+    bins_[k] = elements == 0 ? 1 : std::clamp(static_cast<int>((high_[k] - low_[k]) / edge), 1, elements);
+    inverse_bin_[k] = bins_[k] / (high_[k] - low_[k]);
+    total *= bins_[k];
+  }
+  bin_offsets_.assign(static_cast<std::size_t>(total) + 1, 0);
+  for (const Bounds<Dim>& box : boxes) for_bins_in(box.low, box.high, [&](int b) { ++bin_offsets_[b + 1]; });
+  for (int b = 0; b < total; ++b) bin_offsets_[b + 1] += bin_offsets_[b];
+  bin_elements_.resize(bin_offsets_[total]);
+  std::vector<int> next(bin_offsets_.begin(), bin_offsets_.end() - 1);
+  for (int e = 0; e < elements; ++e)
+    for_bins_in(boxes[e].low, boxes[e].high, [&](int b) { bin_elements_[next[b]++] = e; });
+}
+
+/// Calls f with each bin that the box from low to high touches.
+template <int Dim>
+template <class F>
+void Locator<Dim>::for_bins_in(const Vec<Dim>& low, const Vec<Dim>& high, F&& f) const {
+  std::array<int, Dim> first, last;
+  if (!bin_of(low, first) || !bin_of(high, last)) return;
+  std::array<int, Dim> at = first;
+  while (true) {
+    f(bin_index(at));
+    int k = 0;
+    while (k < Dim && at[k] == last[k]) {
+      at[k] = first[k];
+      ++k;
+    }
+    if (k == Dim) return;
+    ++at[k];
+  }
+}
+
+template <int Dim>
+int Locator<Dim>::bin_index(const std::array<int, Dim>& bin) const {
+  int b = 0;
+  for (int k = Dim - 1; k >= 0; --k) b = b * bins_[k] + bin[k];
+  return b;
+}
+
+template class Locator<2>;
+
+}  // namespace scarp
