@@ -112,6 +112,9 @@ Mesh<2> parse_gmsh(const std::string& name, std::string bytes) {
     if (section == "PartitionedEntities")
       file.fail("partitioned meshes are not read", shown(header),
                 "write the mesh without partitions (Mesh.NbPartitions = 0)", where);
+    if (section == "ParametricNodes")
+      file.fail("nodes with parameters of version 2.2 are not read", shown(header),
+                "write the mesh without them (Mesh.SaveParametric = 0)", where);
     if ((section == "Nodes" || section == "Elements") && !seen.insert(section).second)
       file.fail("this section stands in the file twice", shown(header), "write the file again with Gmsh", where);
     read_section(file, section, version4, contents);

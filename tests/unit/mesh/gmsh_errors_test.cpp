@@ -81,6 +81,7 @@ TEST(GmshErrors, OfSections) {
   expect_error({v2 + "rubbish\n", 16, "a section", "rubbish"});
   expect_error({v2 + "$Periodic\n0\n", 17, "\"$Periodic\" has no end"});
   expect_error({v4 + "$PartitionedEntities\n0\n$EndPartitionedEntities\n", 27, "partitioned"});
+  expect_error({replaced(v2, "$Nodes", "$ParametricNodes"), 4, "parameters"});
 }
 
 TEST(GmshErrors, OfCounts) {
