@@ -5,8 +5,7 @@
 namespace scarp {
 namespace {
 
-std::string message(const std::string& what, const std::string& value, const std::string& remedy,
-                    const Position& at) {
+std::string message(const std::string& what, const std::string& value, const std::string& remedy, const Position& at) {
   std::string text;
   if (!at.file.empty()) {
     text += at.file;

@@ -3,7 +3,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
-namespace scarp::log {
+namespace scarp::logging {
 namespace {
 
 spdlog::logger& logger() {
@@ -18,7 +18,11 @@ spdlog::logger& logger() {
 
 }  // namespace
 
-void info(const std::string& text) { logger().info(text); }
-void warn(const std::string& text) { logger().warn("warning: {}", text); }
+void info(const std::string& text) {
+  logger().info(text);
+}
+void warn(const std::string& text) {
+  logger().warn("warning: {}", text);
+}
 
-}  // namespace scarp::log
+}  // namespace scarp::logging

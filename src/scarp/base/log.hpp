@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace scarp::log {
+namespace scarp::logging {
 
 void info(const std::string& text);
 void warn(const std::string& text);
 
-}  // namespace scarp::log
+}  // namespace scarp::logging

@@ -16,7 +16,7 @@ namespace scarp {
 using Polygon = std::vector<Vec<2>>;
 
 struct Moments {
-  double area = 0;   ///< positive for either orientation of the polygon
+  double area = 0;  ///< positive for either orientation of the polygon
   Vec<2> centroid{};
 };
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scarp/base/vec.hpp"
@@ -45,6 +47,13 @@ struct Points {
 /// The points of one region, with their law and its state.
 template <int Dim>
 struct Block {
+  Block(std::string region, const AnyModel& law)
+      : name(std::move(region)),
+        model(law),
+        state(std::visit(
+            []<class M>(const M&) { return static_cast<std::size_t>(state_size<M, sym_size<Dim>>() - sym_size<Dim>); },
+            law)) {}
+
   std::string name;
   AnyModel model;
   Points<Dim> points;
