@@ -2,6 +2,7 @@ include(GoogleTest)
 # scarp_options: the flags that every target of the project shares.
 add_library(scarp_options INTERFACE)
 target_compile_features(scarp_options INTERFACE cxx_std_20)
+target_compile_definitions(scarp_options INTERFACE SCARP_VERSION="${PROJECT_VERSION}")
 target_include_directories(scarp_options INTERFACE ${PROJECT_SOURCE_DIR}/src)
 target_compile_options(scarp_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
 # sqrt and log need not set errno: nothing here reads it, and the compiler may then use the instruction itself.

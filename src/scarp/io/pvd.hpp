@@ -1,0 +1,24 @@
+// ParaView's collection of frames with their times (.pvd).
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace scarp::io {
+
+/// Keeps a collection file up to date: after each frame it is rewritten whole, so that an interrupted run leaves a
+/// valid one.
+class PvdWriter {
+ public:
+  explicit PvdWriter(std::string path) : path_(std::move(path)) {}
+
+  /// Adds a frame; `file` is relative to the collection. Throws RunError where writing fails.
+  void add(double time, const std::string& file);
+
+ private:
+  std::string path_;
+  std::vector<std::pair<double, std::string>> frames_;
+};
+
+}  // namespace scarp::io

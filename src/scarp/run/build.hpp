@@ -1,0 +1,14 @@
+// From a checked case to soil on its background mesh.
+#pragma once
+
+#include "scarp/input/case.hpp"
+#include "scarp/step/body.hpp"
+
+namespace scarp::run {
+
+/// Reads or makes the mesh, fills the regions, finds the points' elements, sets the boundary conditions and the initial
+/// state. Throws InputError for what only shows with mesh and points together: a mesh that does not hold the soil,
+/// regions that overlap, a node set that the mesh does not have, an initial state that a model cannot take.
+Body<2> build_body(const input::Case& input);
+
+}  // namespace scarp::run

@@ -1,0 +1,190 @@
+#include "scarp/run/fields.hpp"
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include "scarp/exec/stress_update.hpp"
+
+namespace scarp::run {
+namespace {
+
+/// A point of the body, by block and index, in the order of the points' numbers: frames then list points in the same
+/// order whatever the arrangement in memory.
+struct Place {
+  int block, index;
+};
+
+std::vector<Place> places(const Body<2>& body) {
+  std::vector<Place> all;
+  for (int b = 0; b < static_cast<int>(body.blocks.size()); ++b) {
+    for (int i = 0; i < body.blocks[b].size(); ++i) all.push_back({b, i});
+  }
+  std::sort(all.begin(), all.end(), [&](const Place& x, const Place& y) {
+    return body.blocks[x.block].points.id[x.index] < body.blocks[y.block].points.id[y.index];
+  });
+  return all;
+}
+
+/// Collects fields over the points in order.
+class Collector {
+ public:
+  explicit Collector(const Body<2>& body) : body_(body), places_(places(body)) {}
+
+  /// value(points, i) → double
+  template <class F>
+  void scalar(const std::string& name, F&& value) {
+    std::vector<double> data;
+    data.reserve(places_.size());
+    for (const auto& at : places_) data.push_back(value(body_.blocks[at.block].points, at.index));
+    fields_.push_back({name, 1, std::move(data)});
+  }
+
+  void vector(const std::string& name, const std::array<std::vector<double>, 2> Points<2>::*member) {
+    std::vector<double> data;
+    data.reserve(3 * places_.size());
+    for (const auto& at : places_) {
+      const auto& columns = body_.blocks[at.block].points.*member;
+      data.insert(data.end(), {columns[0][at.index], columns[1][at.index], 0.0});
+    }
+    fields_.push_back({name, 3, std::move(data)});
+  }
+
+  void flag(const std::string& name, PointFlag bit) {
+    std::vector<std::uint8_t> data;
+    for (const auto& at : places_) data.push_back((body_.blocks[at.block].points.flags[at.index] & bit) ? 1 : 0);
+    fields_.push_back({name, 1, std::move(data)});
+  }
+
+  /// value(block, i) → int
+  template <class F>
+  void integer(const std::string& name, F&& value) {
+    std::vector<std::int32_t> data;
+    for (const auto& at : places_) data.push_back(value(at.block, at.index));
+    fields_.push_back({name, 1, std::move(data)});
+  }
+
+  /// A symmetric tensor from Mandel components; component(block, i, c) → double
+  template <class F>
+  void tensor(const std::string& name, F&& component) {
+    std::vector<double> data;
+    data.reserve(6 * places_.size());
+    for (const auto& at : places_) {
+      const Block<2>& block = body_.blocks[at.block];
+      for (int c = 0; c < 3; ++c) data.push_back(component(block, at.index, c));
+      data.insert(data.end(), {component(block, at.index, 3) / sqrt2, 0.0, 0.0});
+    }
+    fields_.push_back({name, 6, std::move(data)});
+  }
+
+  /// What the models of the blocks declare; a name that several models have becomes one field.
+  void model_fields();
+
+  std::vector<io::Field> take() { return std::move(fields_); }
+
+ private:
+  static constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+  const Body<2>& body_;
+  std::vector<Place> places_;
+  std::vector<io::Field> fields_;
+};
+
+ModelDescription description_of(const Block<2>& block) {
+  return std::visit([]<class Model>(const Model&) { return Model::description(); }, block.model);
+}
+
+void Collector::model_fields() {
+  // For each declared name: where each block keeps it (column of the state), or -1.
+  std::map<std::string, std::pair<FieldKind, std::vector<int>>> state;
+  std::map<std::string, std::vector<int>> derived;
+  const std::vector<int> nowhere(body_.blocks.size(), -1);
+  for (std::size_t b = 0; b < body_.blocks.size(); ++b) {
+    const auto description = description_of(body_.blocks[b]);
+    int column = 0;
+    for (const auto& info : description.state) {
+      auto& entry = state.try_emplace(info.key, info.kind, nowhere).first->second;
+      entry.second[b] = column;
+      column += info.kind == FieldKind::tensor ? 4 : 1;
+    }
+    for (std::size_t k = 0; k < description.derived.size(); ++k) {
+      derived.try_emplace(description.derived[k].key, nowhere).first->second[b] = static_cast<int>(k);
+    }
+  }
+  auto column_of = [&](const std::vector<int>& columns, const Block<2>& block) {
+    return columns[&block - body_.blocks.data()];
+  };
+  for (const auto& [name, entry] : state) {
+    const auto& columns = entry.second;
+    if (entry.first == FieldKind::tensor) {
+      tensor(name, [&](const Block<2>& block, int i, int c) {
+        const int first = column_of(columns, block);
+        return first < 0 ? nothing : block.state[first + c][i];
+      });
+    } else {
+      std::vector<double> data;
+      for (const auto& at : places_) {
+        data.push_back(columns[at.block] < 0 ? nothing : body_.blocks[at.block].state[columns[at.block]][at.index]);
+      }
+      fields_.push_back({name, 1, std::move(data)});
+    }
+  }
+  std::map<std::string, std::vector<double>> values;
+  for (const auto& at : places_) {
+    exec::with_state(body_.blocks[at.block], at.index, [&](const auto& model, const auto& s) {
+      const auto of_point = model.derived(s);
+      for (const auto& [name, index] : derived) {
+        values[name].push_back(index[at.block] < 0 ? nothing : of_point[index[at.block]]);
+      }
+    });
+  }
+  for (auto& [name, data] : values) fields_.push_back({name, 1, std::move(data)});
+}
+
+double mean_stress(const Points<2>& points, int i) {
+  return -(points.sigma[0][i] + points.sigma[1][i] + points.sigma[2][i]) / 3;
+}
+
+double deviatoric_stress_of(const Points<2>& points, int i) {
+  Sym<double, 4> sigma;
+  for (int c = 0; c < 4; ++c) sigma[c] = points.sigma[c][i];
+  return deviatoric_stress(sigma);
+}
+
+}  // namespace
+
+std::vector<double> frame_positions(const Body<2>& body) {
+  std::vector<double> positions;
+  for (const auto& at : places(body)) {
+    const auto& points = body.blocks[at.block].points;
+    positions.insert(positions.end(), {points.x[0][at.index], points.x[1][at.index], 0.0});
+  }
+  return positions;
+}
+
+std::vector<io::Field> frame_fields(const Body<2>& body) {
+  Collector collect(body);
+  collect.integer("id", [&](int b, int i) { return body.blocks[b].points.id[i]; });
+  collect.integer("region", [](int b, int) { return b; });
+  collect.vector("displacement", &Points<2>::u);
+  collect.vector("velocity", &Points<2>::v);
+  collect.tensor("stress", [](const Block<2>& block, int i, int c) { return -block.points.sigma[c][i]; });
+  collect.scalar("p", mean_stress);
+  collect.scalar("q", deviatoric_stress_of);
+  collect.scalar("eps_v", [](const Points<2>& p, int i) { return -std::log(p.volume[i] / p.initial_volume[i]); });
+  collect.scalar("eps_q", [](const Points<2>& p, int i) { return p.eps_q[i]; });
+  collect.scalar("volume", [](const Points<2>& p, int i) { return p.volume[i]; });
+  collect.scalar("density", [](const Points<2>& p, int i) { return p.mass[i] / p.volume[i]; });
+  collect.model_fields();
+  collect.integer("substeps", [&](int b, int i) { return static_cast<int>(body.blocks[b].points.substeps[i]); });
+  collect.flag("separated", flag_separated);
+  collect.flag("on_floor", flag_on_floor);
+  collect.flag("corrected", flag_corrected);
+  collect.flag("failed", flag_failed);
+  return collect.take();
+}
+
+}  // namespace scarp::run

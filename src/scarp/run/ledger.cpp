@@ -1,0 +1,25 @@
+#include "scarp/run/ledger.hpp"
+
+namespace scarp::run {
+
+void Ledger::add(double step, int points, const StepBooks<2>& books) {
+  time += step;
+  dt = step;
+  ++steps;
+  point_steps += points;
+  last = books;
+  search += books.search;
+  work_gravity += books.work_gravity;
+  work_stress += books.work_stress;
+  dissipation_damping += books.dissipation_damping;
+  dissipation_friction += books.dissipation_friction;
+  dissipation_pic += books.dissipation_pic;
+  removed_kinetic_energy += books.removed_energy;
+  removed_mass += books.removed_mass;
+  removed_points += books.removed;
+  failures += books.stress.failures;
+  corrected += books.stress.corrected;
+  substeps += books.stress.substeps;
+}
+
+}  // namespace scarp::run

@@ -1,0 +1,38 @@
+// The account of a run: energy, mass, counts, and what a stage has seen. Fed by each step, read by history.csv and
+// summary.json.
+#pragma once
+
+#include <cstdint>
+
+#include "scarp/step/step.hpp"
+
+namespace scarp::run {
+
+/// Sums since the start of the run, and the last step's values.
+struct Ledger {
+  double time = 0, dt = 0;
+  std::int64_t steps = 0, point_steps = 0;
+  StepBooks<2> last;  ///< of the last step; its sums of work are of that step only
+  SearchCounts search;
+  double initial_mass = 0, removed_mass = 0;
+  double initial_kinetic_energy = 0, removed_kinetic_energy = 0;
+  double work_gravity = 0, work_stress = 0;
+  double dissipation_damping = 0, dissipation_friction = 0, dissipation_pic = 0;
+  std::int64_t removed_points = 0, failures = 0, corrected = 0, substeps = 0;
+
+  /// Books one step over `points` points.
+  void add(double step, int points, const StepBooks<2>& books);
+
+  /// Kinetic energy that nobody accounts for: ΔE_kin + removed − (work of gravity − work of stress − dissipation).
+  double energy_error() const {
+    return last.kinetic_energy - initial_kinetic_energy + removed_kinetic_energy -
+           (work_gravity - work_stress - dissipation_damping - dissipation_friction - dissipation_pic);
+  }
+  /// Relative to the initial mass.
+  double mass_error() const {
+    return initial_mass > 0 ? (last.mass + removed_mass - initial_mass) / initial_mass : 0.0;
+  }
+  double unbalanced_ratio() const { return last.weight > 0 ? last.unbalanced_force / last.weight : 0.0; }
+};
+
+}  // namespace scarp::run

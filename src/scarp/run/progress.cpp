@@ -1,0 +1,63 @@
+#include "scarp/run/progress.hpp"
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <cstdio>
+
+namespace scarp::run {
+namespace {
+
+double seconds(std::chrono::steady_clock::duration d) {
+  return std::chrono::duration<double>(d).count();
+}
+
+}  // namespace
+
+Progress::Progress(double total, bool quiet)
+    : total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), shown_(start_) {}
+
+Progress::~Progress() {
+  clear();
+}
+
+void Progress::stage(const std::string& name, int index, int count) {
+  clear();
+  stage_ = fmt::format("stage {}/{} {}", index + 1, count, name);
+  if (!quiet_ && !terminal_) fmt::print(stderr, "scarp: {}\n", stage_);
+}
+
+void Progress::show(double time, std::int64_t point_steps, double unbalanced, double velocity) {
+  if (quiet_) return;
+  const auto now = Clock::now();
+  if (seconds(now - shown_) < (terminal_ ? 0.25 : 10.0)) return;
+  shown_ = now;
+  const double elapsed = seconds(now - start_), share = total_ > 0 ? time / total_ : 1.0;
+  const double left = share > 0 ? elapsed * (1 / share - 1) : 0.0;
+  const auto line = fmt::format(
+      "{}: t = {:.3f} s, {:.0f} %, at most {} left, {:.2f} million points x steps/s, unbalanced {:.1e}, v {:.2e} m/s",
+      stage_, time, 100 * share, duration_text(left), 1e-6 * static_cast<double>(point_steps) / elapsed, unbalanced,
+      velocity);
+  if (terminal_) {
+    fmt::print(stderr, "\r\033[K{}", line);
+    open_ = true;
+  } else {
+    fmt::print(stderr, "scarp: {}\n", line);
+  }
+  std::fflush(stderr);
+}
+
+void Progress::clear() {
+  if (!open_) return;
+  fmt::print(stderr, "\n");
+  open_ = false;
+}
+
+std::string duration_text(double s) {
+  const auto whole = static_cast<long long>(s + 0.5);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+}  // namespace scarp::run

@@ -1,0 +1,35 @@
+// What the user sees while a run goes on: one line that renews itself on a terminal, plain lines elsewhere.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace scarp::run {
+
+class Progress {
+ public:
+  /// `total` is the time that all stages may take [s].
+  Progress(double total, bool quiet);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void stage(const std::string& name, int index, int count);
+  /// Shows the state now and then: `time` [s], work done so far as points × steps, `velocity` the largest [m/s].
+  void show(double time, std::int64_t point_steps, double unbalanced, double velocity);
+  /// Ends the renewed line, so that other text can follow.
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double total_;
+  bool quiet_, terminal_, open_ = false;
+  std::string stage_;
+  Clock::time_point start_, shown_;
+};
+
+/// Seconds as "42 s", "3 min 10 s", "2 h 05 min".
+std::string duration_text(double seconds);
+
+}  // namespace scarp::run

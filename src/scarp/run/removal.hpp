@@ -1,0 +1,29 @@
+// Taking soil away: the cut of a stage, at once or in lifts from the top down.
+#pragma once
+
+#include "scarp/input/case.hpp"
+#include "scarp/run/ledger.hpp"
+#include "scarp/step/body.hpp"
+
+namespace scarp::run {
+
+/// The lifts of one removal within a stage that starts at `start` [s].
+class Removal {
+ public:
+  Removal(const input::RemovalInput& input, double start);
+
+  bool finished() const { return done_ == input_.lifts; }
+  /// When the next lift is due.
+  double next_time() const;
+  /// Takes out the points of all lifts that are due at `time`; mass and kinetic energy go to the ledger. Throws
+  /// RunError when no point is left in the body.
+  void take_due(double time, Body<2>& body, Ledger& ledger);
+
+ private:
+  const input::RemovalInput& input_;
+  double start_;
+  int done_ = 0;
+  Box box_;
+};
+
+}  // namespace scarp::run

@@ -1,0 +1,206 @@
+#include "scarp/run/results.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "scarp/base/error.hpp"
+#include "scarp/base/version.hpp"
+#include "scarp/io/file.hpp"
+#include "scarp/io/history.hpp"
+#include "scarp/io/pvd.hpp"
+#include "scarp/io/vtu.hpp"
+#include "scarp/run/fields.hpp"
+
+namespace scarp::run {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> history_columns = {"time",
+                                                  "dt",
+                                                  "stage",
+                                                  "points",
+                                                  "mass",
+                                                  "momentum_x",
+                                                  "momentum_y",
+                                                  "kinetic_energy",
+                                                  "work_gravity",
+                                                  "work_stress",
+                                                  "dissipation_damping",
+                                                  "dissipation_friction",
+                                                  "dissipation_pic",
+                                                  "energy_removed",
+                                                  "energy_error",
+                                                  "max_velocity",
+                                                  "unbalanced_ratio",
+                                                  "substeps_mean",
+                                                  "substeps_max",
+                                                  "failures",
+                                                  "corrected",
+                                                  "separated",
+                                                  "on_floor",
+                                                  "no_stiffness",
+                                                  "removed_points"};
+
+std::string frame_name(int index) {
+  return fmt::format("points_{:05}.vtu", index);
+}
+
+/// Is this a file that scarp writes into a folder of results?
+bool is_ours(const std::string& name) {
+  static const std::vector<std::string> names = {"points.pvd", "mesh.vtu",           "history.csv", "summary.json",
+                                                 "case.toml",  "configurations.png", "fields.png",  "history.png"};
+  const bool frame = name.starts_with("points_") && name.ends_with(".vtu");
+  return frame || name.ends_with(".part") || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void prepare(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
+    throw InputError("the results need a folder, but a file has that name", folder.string(), "choose another --out");
+  }
+  fs::create_directories(folder, error);
+  if (error) {
+    throw InputError("the folder of the results cannot be made", folder.string() + " (" + error.message() + ")",
+                     "choose another --out");
+  }
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const auto name = entry.path().filename().string();
+    if (is_ours(name)) old.push_back(entry.path());
+  }
+  const bool foreign = !old.empty() && !fs::exists(folder / "summary.json");
+  if (foreign) {
+    throw InputError(
+        "the folder holds files with names that scarp would overwrite, but no summary.json of an earlier run",
+        folder.string(), "choose another --out, or move these files away");
+  }
+  for (const auto& path : old) fs::remove(path);
+}
+
+nlohmann::ordered_json search_json(const SearchCounts& search) {
+  const auto searches = std::max<std::int64_t>(1, search.searches());
+  return {{"own", search.own},
+          {"surrounding", search.surrounding},
+          {"walked", search.walked},
+          {"searched_all", search.searched_all},
+          {"lost", search.lost},
+          {"mean_examined", static_cast<double>(search.elements_examined) / static_cast<double>(searches)},
+          {"most_examined", search.most_examined}};
+}
+
+nlohmann::ordered_json stages_json(const std::vector<StageRecord>& stages) {
+  auto list = nlohmann::ordered_json::array();
+  for (const auto& stage : stages) {
+    list.push_back({{"name", stage.name},
+                    {"start", stage.start},
+                    {"end", stage.end},
+                    {"steps", stage.steps},
+                    {"unbalanced_ratio", stage.unbalanced_ratio},
+                    {"max_velocity", stage.max_velocity},
+                    {"max_displacement", stage.max_displacement},
+                    {"removal", stage.removal},
+                    {"ended", stage.ended}});
+  }
+  return list;
+}
+
+}  // namespace
+
+struct Results::Writers {
+  io::PvdWriter collection;
+  io::HistoryWriter history;
+  int frames = 0;
+};
+
+Results::Results(const input::Case& input, const std::string& folder, const Body<2>& body)
+    : input_(input), folder_(folder) {
+  prepare(folder);
+  // The marker of a folder of results comes first.
+  io::write_whole(folder_ + "/summary.json", "{\"status\": \"running\"}\n");
+  std::ifstream source(input.path, std::ios::binary);
+  io::write_whole(folder_ + "/case.toml", std::string(std::istreambuf_iterator<char>(source), {}));
+  io::write_mesh_vtu(folder_ + "/mesh.vtu", *body.mesh);
+  writers_ = std::make_unique<Writers>(io::PvdWriter(folder_ + "/points.pvd"),
+                                       io::HistoryWriter(folder_ + "/history.csv", history_columns));
+}
+
+Results::~Results() = default;
+
+void Results::frame(const Body<2>& body, double time) {
+  const auto name = frame_name(writers_->frames++);
+  io::write_points_vtu(folder_ + "/" + name, frame_positions(body), frame_fields(body));
+  writers_->collection.add(time, name);
+}
+
+void Results::history(int stage, int points, const Ledger& l) {
+  const auto& stress = l.last.stress;
+  const std::vector<double> row = {l.time,
+                                   l.dt,
+                                   static_cast<double>(stage),
+                                   static_cast<double>(points),
+                                   l.last.mass,
+                                   l.last.momentum[0],
+                                   l.last.momentum[1],
+                                   l.last.kinetic_energy,
+                                   l.work_gravity,
+                                   l.work_stress,
+                                   l.dissipation_damping,
+                                   l.dissipation_friction,
+                                   l.dissipation_pic,
+                                   l.removed_kinetic_energy,
+                                   l.energy_error(),
+                                   l.last.max_velocity,
+                                   l.unbalanced_ratio(),
+                                   points > 0 ? static_cast<double>(stress.substeps) / points : 0.0,
+                                   static_cast<double>(stress.most_substeps),
+                                   static_cast<double>(l.failures),
+                                   static_cast<double>(l.corrected),
+                                   static_cast<double>(stress.separated),
+                                   static_cast<double>(stress.on_floor),
+                                   static_cast<double>(stress.no_stiffness),
+                                   static_cast<double>(l.removed_points)};
+  writers_->history.row(row);
+}
+
+void Results::summary(const Body<2>& body, const Ledger& ledger, const RunRecord& record) {
+  const auto work = static_cast<double>(std::max<std::int64_t>(1, ledger.point_steps));
+  const nlohmann::ordered_json json = {{"title", input_.title},
+                                       {"version", version},
+                                       {"case", input_.path},
+                                       {"status", record.status},
+                                       {"message", record.message},
+                                       {"points", body.point_count()},
+                                       {"elements", body.mesh->element_count()},
+                                       {"threads", record.threads},
+                                       {"steps", ledger.steps},
+                                       {"time", ledger.time},
+                                       {"wall_seconds", record.wall_seconds},
+                                       {"ns_per_point_step", 1e9 * record.wall_seconds / work},
+                                       {"mass_error", ledger.mass_error()},
+                                       {"energy_error", record.energy_error},
+                                       {"removed_points", ledger.removed_points},
+                                       {"failures", ledger.failures},
+                                       {"corrected", ledger.corrected},
+                                       {"substeps_mean", static_cast<double>(ledger.substeps) / work},
+                                       {"search", search_json(ledger.search)},
+                                       {"colour", input_.output.colour},
+                                       {"stages", stages_json(record.stages)}};
+  io::write_whole(folder_ + "/summary.json", json.dump(2) + "\n");
+}
+
+double max_displacement(const Body<2>& body) {
+  double largest = 0;
+  for (const auto& block : body.blocks) {
+    for (int i = 0; i < block.size(); ++i) {
+      largest = std::max(largest, std::hypot(block.points.u[0][i], block.points.u[1][i]));
+    }
+  }
+  return largest;
+}
+
+}  // namespace scarp::run

@@ -1,0 +1,57 @@
+// The folder of a run's results: frames for ParaView, history.csv, summary.json. Reads the body, never changes it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scarp/input/case.hpp"
+#include "scarp/run/ledger.hpp"
+#include "scarp/step/body.hpp"
+
+namespace scarp::run {
+
+/// One finished stage, for summary.json.
+struct StageRecord {
+  std::string name;
+  double start = 0, end = 0;
+  std::int64_t steps = 0;
+  double unbalanced_ratio = 0, max_velocity = 0, max_displacement = 0;  ///< at its end
+  bool removal = false;
+  std::string ended;  ///< "at rest" or "duration"
+};
+
+/// How a run stands, for summary.json.
+struct RunRecord {
+  std::string status;   ///< "running", "done", "failed", "interrupted"
+  std::string message;  ///< of a failure
+  double wall_seconds = 0;
+  int threads = 1;
+  double energy_error = 0;  ///< see docs/output.md
+  std::vector<StageRecord> stages;
+};
+
+class Results {
+ public:
+  /// Prepares the folder: makes it, or clears an earlier result of scarp out of it. Throws InputError where the folder
+  /// holds other things.
+  Results(const input::Case& input, const std::string& folder, const Body<2>& body);
+  ~Results();
+  Results(const Results&) = delete;
+  Results& operator=(const Results&) = delete;
+
+  void frame(const Body<2>& body, double time);
+  void history(int stage, int points, const Ledger& ledger);
+  void summary(const Body<2>& body, const Ledger& ledger, const RunRecord& record);
+
+ private:
+  struct Writers;
+  const input::Case& input_;
+  std::string folder_;
+  std::unique_ptr<Writers> writers_;
+};
+
+/// The largest displacement of a point [m].
+double max_displacement(const Body<2>& body);
+
+}  // namespace scarp::run

@@ -1,0 +1,138 @@
+#include "scarp/run/run.hpp"
+
+#include <fmt/format.h>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <functional>
+
+#include "scarp/base/error.hpp"
+#include "scarp/exec/parallel.hpp"
+#include "scarp/run/build.hpp"
+#include "scarp/run/results.hpp"
+#include "scarp/run/stage.hpp"
+
+namespace scarp::run {
+namespace {
+
+std::atomic<bool> asked_to_stop{false};
+
+/// Turns SIGINT and SIGTERM into a request to stop for as long as it lives.
+class SignalGuard {
+ public:
+  SignalGuard() {
+    asked_to_stop = false;
+    old_int_ = std::signal(SIGINT, [](int) { asked_to_stop = true; });
+    old_term_ = std::signal(SIGTERM, [](int) { asked_to_stop = true; });
+  }
+  ~SignalGuard() {
+    std::signal(SIGINT, old_int_);
+    std::signal(SIGTERM, old_term_);
+  }
+  SignalGuard(const SignalGuard&) = delete;
+  SignalGuard& operator=(const SignalGuard&) = delete;
+
+ private:
+  void (*old_int_)(int);
+  void (*old_term_)(int);
+};
+
+/// The account since the cut, or since the start of a run without one: the energy error over the work of gravity.
+class EnergyCheck {
+ public:
+  void start(const Ledger& ledger) {
+    error_ = ledger.energy_error();
+    work_ = ledger.work_gravity;
+  }
+  double relative(const Ledger& ledger) const {
+    const double work = std::abs(ledger.work_gravity - work_);
+    return work > 0 ? std::abs(ledger.energy_error() - error_) / work : 0.0;
+  }
+
+ private:
+  double error_ = 0, work_ = 0;
+};
+
+Ledger open_ledger(const Body<2>& body) {
+  Ledger ledger;
+  book_motion(body, ledger.last);
+  ledger.initial_mass = ledger.last.mass;
+  ledger.initial_kinetic_energy = ledger.last.kinetic_energy;
+  return ledger;
+}
+
+}  // namespace
+
+Outcome run_case(const input::Case& input, const Options& options) {
+  const int threads = exec::set_threads(options.threads);
+  Body<2> body = build_body(input);
+  Ledger ledger = open_ledger(body);
+  Results results(input, options.out, body);
+  double total = 0;
+  for (const auto& stage : input.stages) total += stage.duration;
+
+  const SignalGuard guard;
+  const std::function<bool()> interrupted = [] { return asked_to_stop.load(); };
+  const auto start = std::chrono::steady_clock::now();
+  RunRecord record{"running", "", 0, threads, 0, {}};
+  EnergyCheck energy;
+  auto write_summary = [&](const std::string& status, const std::string& message) {
+    record.status = status;
+    record.message = message;
+    record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    record.energy_error = energy.relative(ledger);
+    results.summary(body, ledger, record);
+  };
+  results.frame(body, 0);
+  write_summary("running", "");
+  try {
+    Progress progress(total, options.quiet);
+    Context context{input, body, ledger, results, progress, interrupted};
+    bool cut = false;
+    for (int i = 0; i < static_cast<int>(input.stages.size()) && !interrupted(); ++i) {
+      progress.stage(input.stages[i].name, i, static_cast<int>(input.stages.size()));
+      if (input.stages[i].remove && !cut) {
+        cut = true;
+        energy.start(ledger);
+      }
+      record.stages.push_back(run_stage(context, i));
+      results.history(i, body.point_count(), ledger);
+      results.frame(body, ledger.time);
+    }
+  } catch (const RunError& error) {
+    results.frame(body, ledger.time);
+    write_summary("failed", error.what());
+    throw;
+  }
+  write_summary(interrupted() ? "interrupted" : "done", "");
+  return interrupted() ? Outcome::interrupted : Outcome::done;
+}
+
+std::string check_case(const input::Case& input) {
+  const Body<2> body = build_body(input);
+  std::string text = fmt::format("{}: {}\n", input.path, input.title);
+  text += fmt::format("  mesh: {} elements, {} nodes, {}\n", body.mesh->element_count(), body.mesh->node_count(),
+                      body.mesh->grid ? "a structured grid" : "unstructured");
+  text += fmt::format("  points: {} in {} elements\n", body.point_count(), body.active.size());
+  for (const auto& block : body.blocks) {
+    double mass = 0, volume = 0;
+    for (int i = 0; i < block.size(); ++i) {
+      mass += block.points.mass[i];
+      volume += block.points.volume[i];
+    }
+    text += fmt::format("    region \"{}\": {} points, area {:.6g} m2, mass {:.6g} per m\n", block.name, block.size(),
+                        volume, mass);
+  }
+  const double critical = critical_time_step(body);
+  const double dt = input.method.safety * critical;
+  text += fmt::format("  time step: {:.3g} s at the start (critical {:.3g} s, safety {:g})\n", dt, critical,
+                      input.method.safety);
+  for (const auto& stage : input.stages) {
+    text += fmt::format("  stage \"{}\": {:g} s, about {:.0f} steps\n", stage.name, stage.duration,
+                        std::ceil(stage.duration / dt));
+  }
+  return text;
+}
+
+}  // namespace scarp::run

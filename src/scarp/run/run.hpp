@@ -1,0 +1,28 @@
+// Running a case: stages, time loop, progress, output times. No equations.
+#pragma once
+
+#include <string>
+
+#include "scarp/input/case.hpp"
+
+namespace scarp::run {
+
+enum class Outcome { done, interrupted };
+
+struct Options {
+  std::string out;     ///< folder of the results, made if it is not there
+  int threads = 0;     ///< 0: as many as the system gives
+  bool quiet = false;  ///< no progress
+};
+
+/// Runs the case and writes points.pvd with its frames, mesh.vtu, history.csv, summary.json and a copy of the case into
+/// the folder. An earlier result in the folder is replaced once the case has been found good; a folder with other
+/// things in it is refused. SIGINT and SIGTERM end the run after the step under way, with everything written up to
+/// there. Throws InputError for a bad case and RunError for a computation that cannot go on (its last state is written
+/// first).
+Outcome run_case(const input::Case& input, const Options& options);
+
+/// Builds mesh, points and initial state, and describes them: what `scarp check` prints.
+std::string check_case(const input::Case& input);
+
+}  // namespace scarp::run

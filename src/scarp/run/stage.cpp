@@ -1,0 +1,171 @@
+#include "scarp/run/stage.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "scarp/base/error.hpp"
+#include "scarp/run/removal.hpp"
+
+namespace scarp::run {
+namespace {
+
+/// The energy that the weight of the body has over its height: the measure of a small kinetic energy.
+double weight_energy(const Body<2>& body) {
+  double low = std::numeric_limits<double>::infinity(), high = -low, mass = 0;
+  for (const auto& block : body.blocks) {
+    for (int i = 0; i < block.size(); ++i) {
+      low = std::min(low, block.points.x[1][i]);
+      high = std::max(high, block.points.x[1][i]);
+      mass += block.points.mass[i];
+    }
+  }
+  return mass * std::hypot(body.gravity[0], body.gravity[1]) * (high - low);
+}
+
+/// Watches whether the body is at rest for long enough.
+class RestWatch {
+ public:
+  RestWatch(const input::RestInput& rest, const Body<2>& body) : rest_(rest), scale_(weight_energy(body)) {}
+
+  bool at_rest(const Ledger& ledger) {
+    const bool calm = ledger.unbalanced_ratio() <= rest_.unbalanced && kinetic(ledger) <= rest_.kinetic;
+    calm_for_ = calm ? calm_for_ + ledger.dt : 0.0;
+    return calm && calm_for_ >= rest_.hold;
+  }
+
+  /// Kinetic energy in parts of the weight's.
+  double kinetic(const Ledger& ledger) const { return scale_ > 0 ? ledger.last.kinetic_energy / scale_ : 0; }
+
+ private:
+  const input::RestInput& rest_;
+  double scale_;
+  double calm_for_ = 0;  ///< [s]
+};
+
+void set_to_zero(Body<2>& body, const input::StageInput& stage, Ledger& ledger) {
+  for (auto& block : body.blocks) {
+    auto& points = block.points;
+    if (stage.zero_displacement) {
+      for (auto& u : points.u) std::fill(u.begin(), u.end(), 0.0);
+      std::fill(points.eps_q.begin(), points.eps_q.end(), 0.0);
+    }
+    if (stage.zero_velocity) {
+      for (auto& v : points.v) std::fill(v.begin(), v.end(), 0.0);
+    }
+  }
+  if (stage.zero_velocity) ledger.removed_kinetic_energy += ledger.last.kinetic_energy;
+  book_motion(body, ledger.last);
+}
+
+/// A step that reaches `until` evenly, instead of with a sliver at its end.
+double fitted(double dt, double until) {
+  if (!(until > 0)) return dt;
+  return until <= 4 * dt ? until / std::ceil(until / dt * (1 - 1e-12)) : dt;
+}
+
+/// Times at regular distances from the start of a stage.
+class Clock {
+ public:
+  Clock(double start, double every) : start_(start), every_(every), count_(1) {}
+  double next() const { return every_ > 0 ? start_ + every_ * count_ : std::numeric_limits<double>::infinity(); }
+  bool due(double time) {
+    if (time < next() * (1 - 1e-12)) return false;
+    while (next() * (1 - 1e-12) <= time) ++count_;
+    return true;
+  }
+
+ private:
+  double start_, every_;
+  int count_;
+};
+
+std::string end_text(IntegrationEnd end) {
+  switch (end) {
+    case IntegrationEnd::unstable:
+      return "the material is unstable there (N:D:G + H is not positive)";
+    case IntegrationEnd::inadmissible:
+      return "its state is not admissible";
+    default:
+      return "the error stays above the tolerance at the smallest substep";
+  }
+}
+
+void check_failures(const Context& context) {
+  const auto& ledger = context.ledger;
+  if (ledger.failures <= context.input.method.largest_failures) return;
+  throw RunError(
+      fmt::format("the stress update of point {} failed at t = {:.6g} s, step {}: {}", ledger.last.stress.failed_id,
+                  ledger.time, ledger.steps, end_text(ledger.last.stress.failed_end)),
+      fmt::format("{} failures in this run", ledger.failures),
+      "look at the last frame; take a smaller safety or a larger p_c_floor, or allow some with largest_failures in "
+      "[method]");
+}
+
+double stable_time_step(const Context& context, double critical) {
+  if (!std::isfinite(critical)) {
+    throw RunError("no point has any stiffness left, so that there is no critical time step",
+                   fmt::format("t = {:.6g} s", context.ledger.time), "look at the last frame: all soil has separated");
+  }
+  return context.input.method.safety * critical;
+}
+
+}  // namespace
+
+StageRecord run_stage(Context& context, int index) {
+  const auto& stage = context.input.stages[index];
+  auto& [input, body, ledger, results, progress, interrupted] = context;
+  StageRecord record{stage.name, ledger.time, ledger.time, 0, 0, 0, 0, stage.remove.has_value(), "duration"};
+  const double end = ledger.time + stage.duration;
+  set_to_zero(body, stage, ledger);
+  std::optional<Removal> removal;
+  if (stage.remove) removal.emplace(*stage.remove, ledger.time);
+  std::optional<RestWatch> rest;
+  if (stage.rest) rest.emplace(*stage.rest, body);
+  const StepSettings settings{stage.flip.value_or(input.method.flip),
+                              stage.damping,
+                              {input.method.tolerance, 1e-5},
+                              input.method.remove_leaving};
+  Clock frames(ledger.time, input.output.every), rows(ledger.time, input.output.history);
+  double critical = critical_time_step(body);
+  bool resting = false, first = true;
+
+  while (ledger.time < end && !resting && !interrupted()) {
+    if (removal) removal->take_due(ledger.time, body, ledger);
+    const double next_lift = removal ? removal->next_time() : end;
+    const double until = std::min({end, frames.next(), next_lift}) - ledger.time;
+    const double dt = fitted(stable_time_step(context, critical), until);
+    const auto books = advance(body, dt, settings);
+    ledger.add(dt, body.point_count(), books);
+    if (end - ledger.time < 1e-9 * dt) ledger.time = end;
+    critical = books.stress.critical_dt;
+    ++record.steps;
+    resting = rest && rest->at_rest(ledger) && (!removal || removal->finished());
+
+    if (input.output.history <= 0 || rows.due(ledger.time) || first) results.history(index, body.point_count(), ledger);
+    if (frames.due(ledger.time) || (first && stage.remove)) results.frame(body, ledger.time);
+    first = false;
+    progress.show(ledger.time, ledger.point_steps, ledger.unbalanced_ratio(), ledger.last.max_velocity);
+    check_failures(context);
+  }
+
+  record.end = ledger.time;
+  record.unbalanced_ratio = ledger.unbalanced_ratio();
+  record.max_velocity = ledger.last.max_velocity;
+  record.max_displacement = max_displacement(body);
+  record.ended = interrupted() ? "interrupted" : resting ? "at rest" : "duration";
+  if (stage.rest && stage.rest->required && !resting && !interrupted()) {
+    throw RunError(
+        fmt::format("the ground does not come to rest in stage \"{}\" within {:g} s", stage.name, stage.duration),
+        fmt::format("an unbalanced force ratio of {:.3g} (asked: {:g}), a kinetic energy of {:.3g} of the weight's "
+                    "(asked: {:g}), a largest velocity of {:.3g} m/s",
+                    record.unbalanced_ratio, stage.rest->unbalanced, rest->kinetic(ledger), stage.rest->kinetic,
+                    record.max_velocity),
+        "look at the last frame: either the slope does not stand, or the stage needs more time or more damping");
+  }
+  return record;
+}
+
+}  // namespace scarp::run

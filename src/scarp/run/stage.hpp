@@ -1,0 +1,30 @@
+// One stage of a case: from its first step to its end.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "scarp/input/case.hpp"
+#include "scarp/run/ledger.hpp"
+#include "scarp/run/progress.hpp"
+#include "scarp/run/results.hpp"
+#include "scarp/step/body.hpp"
+
+namespace scarp::run {
+
+/// Everything that stages share.
+struct Context {
+  const input::Case& input;
+  Body<2>& body;
+  Ledger& ledger;
+  Results& results;
+  Progress& progress;
+  const std::function<bool()>& interrupted;
+};
+
+/// Runs stage number `index` and returns its record. Ends early at rest, where the stage asks for it, or when
+/// interrupted. Throws RunError where the body does not come to rest but has to, where stress updates fail more often
+/// than allowed, or where a step cannot be taken.
+StageRecord run_stage(Context& context, int index);
+
+}  // namespace scarp::run
