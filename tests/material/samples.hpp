@@ -1,0 +1,69 @@
+// Constants and states that the models' tests start from.
+#pragma once
+
+#include <map>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+#include "scarp/material/models.hpp"
+#include "unit/tensor/matrix.hpp"
+
+namespace scarp::test {
+
+/// A soil with every feature of the subloading model at work [kPa].
+inline std::map<std::string, double> full_constants() {
+  return {{"kappa", 0.015}, {"lambda", 0.1}, {"nu", 0.25},   {"p_e", 3},     {"M", 0.82},       {"M_c", 1.2},
+          {"k", 5.0 / 7},   {"alpha", 0.9},  {"xi", 0.003},  {"c_R", 20},    {"c_beta", 8},     {"c_b", 8},
+          {"c_a", 8},       {"R_bf", 1},     {"R_min", .01}, {"delta", .02}, {"p_atm", 101.325}};
+}
+
+/// The Modified Cam Clay limit of constitutive.md: M = 1.2, Λ = 0.8.
+inline std::map<std::string, double> cam_clay_constants() {
+  return {{"kappa", 0.02}, {"lambda", 0.1}, {"nu", 0.25}, {"p_e", 0},     {"M", 1.2},         {"M_c", 1.2},
+          {"k", 1},        {"alpha", 1},    {"xi", 0},    {"c_R", 1000},  {"c_beta", 0},      {"c_b", 0},
+          {"c_a", 0},      {"R_bf", 1},     {"delta", 0}, {"R_min", .01}, {"p_atm", 101.325}, {"p_c_floor", 0}};
+}
+
+/// The model, or an exception that says which constant it did not take.
+inline AnyModel made(const std::string& name, const std::map<std::string, double>& values) {
+  auto result = make_model(name, values);
+  if (!result.model) throw std::invalid_argument(result.problems.at(0).key + ": " + result.problems.at(0).what);
+  return *result.model;
+}
+
+inline Subloading subloading(std::map<std::string, double> values, const std::map<std::string, double>& changes = {}) {
+  for (const auto& [key, value] : changes) values[key] = value;
+  return std::get<Subloading>(made("subloading", values));
+}
+
+/// What the conformance suite needs of a model: valid constants, and an initial state in compression.
+struct Sample {
+  std::map<std::string, double> constants;
+  Values initial;
+};
+
+inline Sample sample(const std::string& model) {
+  if (model == "linear-elastic") return {{{"E", 2e4}, {"nu", 0.3}}, {}};
+  if (model == "subloading") return {full_constants(), {{"R_b", 2.5}, {"OCR", 1.6}, {"a", 0.4}, {"beta", "K0"}}};
+  throw std::invalid_argument("add constants and initial values of the model " + model + " to this list");
+}
+
+/// A random state of the subloading model with 0 < R ≤ 1, ‖s̄‖ and the Lode angle anywhere.
+template <int N>
+Subloading::State<double, N> random_state(std::mt19937& generator, const Subloading& model) {
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (;;) {
+    Subloading::State<double, N> s{};
+    const double p = 20 + 300 * uniform(generator);
+    s.sigma = isotropic<double, N>(p) + (0.8 * p) * deviator(random_tensor<N>(generator));
+    s.beta = 0.3 * deviator(random_tensor<N>(generator));
+    s.R_b = 1 + 3 * uniform(generator);
+    s.p_c = (0.6 + 2.4 * uniform(generator)) * p;
+    s.a = (uniform(generator) * 0.8) * s.sigma + (0.1 * p) * random_tensor<N>(generator);
+    const auto h = model.homothety(s);
+    if (h.exists && h.R > 0 && h.R <= 1) return s;
+  }
+}
+
+}  // namespace scarp::test

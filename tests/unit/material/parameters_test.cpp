@@ -1,0 +1,136 @@
+// make_model: what each model declares of its constants is what it takes.
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <limits>
+
+#include "material/samples.hpp"
+
+namespace scarp::test {
+namespace {
+
+bool names(const std::vector<Problem>& problems, const std::string& key) {
+  return std::any_of(problems.begin(), problems.end(), [&](const Problem& p) { return p.key == key; });
+}
+
+/// Expects `value` for `key` to be refused under that key, with a reason and a remedy.
+void expect_refused(const ModelDescription& model, const std::string& key, double value) {
+  auto constants = sample(model.name).constants;
+  constants[key] = value;
+  const auto result = make_model(model.name, constants);
+  EXPECT_FALSE(result.model) << model.name << ' ' << key << " = " << value;
+  ASSERT_TRUE(names(result.problems, key)) << model.name << ' ' << key << " = " << value;
+  EXPECT_FALSE(result.problems.front().what.empty());
+  EXPECT_FALSE(result.problems.front().remedy.empty());
+}
+
+/// Expects no complaint about the bounds of `key`; what holds between constants may still be violated.
+void expect_within_bounds(const ModelDescription& model, const std::string& key, double value) {
+  auto constants = sample(model.name).constants;
+  constants[key] = value;
+  for (const auto& problem : make_model(model.name, constants).problems)
+    EXPECT_EQ(problem.what.find("must satisfy"), std::string::npos) << key << " = " << value << ": " << problem.what;
+}
+
+TEST(Parameters, SamplesAreValid) {
+  for (const auto& model : model_descriptions()) {
+    const auto result = make_model(model.name, sample(model.name).constants);
+    EXPECT_TRUE(result.model) << model.name;
+    EXPECT_TRUE(result.problems.empty());
+    EXPECT_TRUE(result.warnings.empty());
+  }
+}
+
+TEST(Parameters, BoundsAreThoseDeclared) {
+  for (const auto& model : model_descriptions()) {
+    for (const auto& info : model.parameters) {
+      const double inf = std::numeric_limits<double>::infinity();
+      for (double bad : {inf, -inf, std::numeric_limits<double>::quiet_NaN()}) expect_refused(model, info.key, bad);
+      if (info.low) {
+        expect_refused(model, info.key, std::nextafter(info.low->value, -inf));
+        if (info.low->open) expect_refused(model, info.key, info.low->value);
+        expect_within_bounds(model, info.key, info.low->open ? std::nextafter(info.low->value, inf) : info.low->value);
+      }
+      if (info.high) {
+        expect_refused(model, info.key, std::nextafter(info.high->value, inf));
+        if (info.high->open) expect_refused(model, info.key, info.high->value);
+        expect_within_bounds(model, info.key,
+                             info.high->open ? std::nextafter(info.high->value, -inf) : info.high->value);
+      }
+    }
+  }
+}
+
+// The bounds that constitutive.md lists, key by key: a bound left out of the declaration shows here.
+TEST(Parameters, BoundsOfTheSubloadingModel) {
+  const auto model = Subloading::description();
+  for (const char* positive : {"kappa", "lambda", "M", "M_c", "alpha", "c_R", "p_atm", "R_min"}) {
+    expect_refused(model, positive, 0);
+    expect_refused(model, positive, -1);
+  }
+  for (const char* from_zero : {"nu", "p_e", "xi", "c_beta", "c_b", "c_a", "delta", "p_c_floor"}) {
+    expect_refused(model, from_zero, -1e-9);
+    expect_within_bounds(model, from_zero, 0);
+  }
+  expect_refused(model, "nu", 0.5);
+  expect_refused(model, "xi", 0.5);
+  expect_refused(model, "k", 0.5);
+  expect_refused(model, "k", 1.01);
+  expect_refused(model, "R_bf", 0.99);
+  expect_refused(model, "R_min", 1);
+  expect_refused(model, "delta", 1);
+}
+
+TEST(Parameters, KappaIsLessThanLambda) {
+  auto constants = full_constants();
+  constants["kappa"] = constants["lambda"];
+  const auto result = make_model("subloading", constants);
+  EXPECT_FALSE(result.model);
+  EXPECT_TRUE(names(result.problems, "kappa"));
+}
+
+TEST(Parameters, AClampedAnisotropicLimitIsAWarning) {
+  auto constants = full_constants();
+  constants["M"] = 0.9;  // k M_c = 0.857
+  const auto result = make_model("subloading", constants);
+  EXPECT_TRUE(result.model);
+  EXPECT_TRUE(names(result.warnings, "M"));
+}
+
+TEST(Parameters, WithoutAStandardValueAKeyIsRequired) {
+  for (const auto& model : model_descriptions()) {
+    for (const auto& info : model.parameters) {
+      auto constants = sample(model.name).constants;
+      constants.erase(info.key);
+      const auto result = make_model(model.name, constants);
+      EXPECT_EQ(result.model.has_value(), info.standard.has_value()) << info.key;
+      EXPECT_EQ(names(result.problems, info.key), !info.standard.has_value()) << info.key;
+    }
+  }
+}
+
+TEST(Parameters, OnlyNumericalConstantsHaveStandardValues) {
+  for (const auto& model : model_descriptions())
+    for (const auto& info : model.parameters)
+      EXPECT_TRUE(!info.standard || info.meaning.starts_with("numerical")) << info.key;
+}
+
+TEST(Parameters, UnknownNamesAreProblems) {
+  auto constants = full_constants();
+  constants["kapa"] = 0.01;
+  EXPECT_TRUE(names(make_model("subloading", constants).problems, "kapa"));
+  const auto result = make_model("subloding", full_constants());
+  ASSERT_TRUE(names(result.problems, "model"));
+  EXPECT_NE(result.problems.front().remedy.find("subloading"), std::string::npos);
+}
+
+TEST(Parameters, EveryProblemIsNamedAtOnce) {
+  auto constants = full_constants();
+  constants["kappa"] = -1;
+  constants["nu"] = 0.7;
+  constants.erase("M");
+  const auto problems = make_model("subloading", constants).problems;
+  EXPECT_TRUE(names(problems, "kappa") && names(problems, "nu") && names(problems, "M"));
+}
+
+}  // namespace
+}  // namespace scarp::test
