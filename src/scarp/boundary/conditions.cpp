@@ -39,50 +39,64 @@ void wall(Conditions<Dim>& conditions, const Mesh<Dim>& mesh, std::span<const in
   }
 }
 
+namespace {
+
+/// Coulomb friction of a wall that takes the acceleration `pushed` along its normal.
 template <int Dim>
-Vec<Dim> constrain_acceleration(const Conditions<Dim>& conditions, int n, double m, const Vec<Dim>& v, double dt,
-                                Vec<Dim>& a) {
-  Vec<Dim> friction_force{};
+void resist_sliding(int normal, double limit, double m, const Vec<Dim>& v, double dt, Vec<Dim>& a,
+                    Reaction<Dim>& reaction) {
+  double slip2 = 0;  // velocity along the wall if nothing held it
+  for (int j = 0; j < Dim; ++j) {
+    if (j != normal) slip2 += (v[j] + a[j] * dt) * (v[j] + a[j] * dt);
+  }
+  const double slip = std::sqrt(slip2);
+  const bool sticks = limit * dt >= slip;
+  const double share = sticks ? 1.0 : limit * dt / slip;
+  for (int j = 0; j < Dim; ++j) {
+    if (j == normal) continue;
+    const double change = -share * (v[j] + a[j] * dt) / dt;
+    a[j] += change;
+    reaction.friction[j] = m * change;
+    if (sticks) reaction.held = static_cast<std::uint8_t>(reaction.held | (1u << j));
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+Reaction<Dim> constrain_acceleration(const Conditions<Dim>& conditions, int n, double m, const Vec<Dim>& v, double dt,
+                                     Vec<Dim>& a) {
+  Reaction<Dim> reaction;
   const int normal = conditions.normal[n];
   if (normal >= 0) {
     const double pushed = -conditions.inward[n] * a[normal];  // acceleration into the wall that it has to take
     if (pushed > 0) {
       a[normal] = 0;
-      double slip2 = 0;  // velocity along the wall if nothing held it
-      for (int j = 0; j < Dim; ++j) {
-        if (j != normal) slip2 += (v[j] + a[j] * dt) * (v[j] + a[j] * dt);
-      }
-      const double slip = std::sqrt(slip2);
-      const double stopped = slip > 0 ? std::min(1.0, conditions.friction[n] * pushed * dt / slip) : 0.0;
-      for (int j = 0; j < Dim; ++j) {
-        if (j == normal) continue;
-        const double change = -stopped * (v[j] + a[j] * dt) / dt;
-        a[j] += change;
-        friction_force[j] = m * change;
-      }
+      reaction.held = static_cast<std::uint8_t>(1u << normal);
+      resist_sliding<Dim>(normal, conditions.friction[n] * pushed, m, v, dt, a, reaction);
     }
   }
   for (int j = 0; j < Dim; ++j) {
-    if (conditions.fixed[n] & (1u << j)) {
-      a[j] = 0;
-      friction_force[j] = 0;
-    }
+    if (!(conditions.fixed[n] & (1u << j))) continue;
+    a[j] = 0;
+    reaction.friction[j] = 0;
+    reaction.held = static_cast<std::uint8_t>(reaction.held | (1u << j));
   }
-  return friction_force;
+  return reaction;
 }
 
 template <int Dim>
-void constrain_velocity(const Conditions<Dim>& conditions, int n, Vec<Dim>& v) {
+void constrain_velocity(const Conditions<Dim>& conditions, int n, std::uint8_t held, Vec<Dim>& v) {
   const int normal = conditions.normal[n];
   if (normal >= 0 && conditions.inward[n] * v[normal] < 0) v[normal] = 0;
   for (int j = 0; j < Dim; ++j) {
-    if (conditions.fixed[n] & (1u << j)) v[j] = 0;
+    if (held & (1u << j)) v[j] = 0;
   }
 }
 
 template void fix<2>(Conditions<2>&, std::span<const int>, int);
 template void wall<2>(Conditions<2>&, const Mesh<2>&, std::span<const int>, int, double);
-template Vec<2> constrain_acceleration<2>(const Conditions<2>&, int, double, const Vec<2>&, double, Vec<2>&);
-template void constrain_velocity<2>(const Conditions<2>&, int, Vec<2>&);
+template Reaction<2> constrain_acceleration<2>(const Conditions<2>&, int, double, const Vec<2>&, double, Vec<2>&);
+template void constrain_velocity<2>(const Conditions<2>&, int, std::uint8_t, Vec<2>&);
 
 }  // namespace scarp

@@ -33,15 +33,22 @@ template <int Dim>
 void wall(Conditions<Dim>& conditions, const Mesh<Dim>& mesh, std::span<const int> nodes, int component,
           double friction);
 
-/// Step 3 with conditions: makes the acceleration a = F/m of node n respect them, for a node of mass m and velocity
-/// v^t. What is added to a is the reaction; the part that friction does of it is returned as a force (zero where there
-/// is no wall).
+/// What conditions did to the acceleration of a node.
 template <int Dim>
-Vec<Dim> constrain_acceleration(const Conditions<Dim>& conditions, int n, double m, const Vec<Dim>& v, double dt,
-                                Vec<Dim>& a);
+struct Reaction {
+  Vec<Dim> friction{};  ///< force of friction on the node
+  std::uint8_t held =
+      0;  ///< bit j set where component j may not move in this step: fixed, pressed against or stuck to a wall
+};
 
-/// Step 5 with conditions: makes the velocity v^{t+dt} of node n respect them.
+/// Step 3 with conditions: makes the acceleration a = F/m of node n respect them, for a node of mass m and velocity
+/// v^t.
 template <int Dim>
-void constrain_velocity(const Conditions<Dim>& conditions, int n, Vec<Dim>& v);
+Reaction<Dim> constrain_acceleration(const Conditions<Dim>& conditions, int n, double m, const Vec<Dim>& v, double dt,
+                                     Vec<Dim>& a);
+
+/// Step 5 with conditions: makes the velocity v^{t+dt} of node n respect them; `held` is that of its Reaction.
+template <int Dim>
+void constrain_velocity(const Conditions<Dim>& conditions, int n, std::uint8_t held, Vec<Dim>& v);
 
 }  // namespace scarp

@@ -14,7 +14,7 @@ int set_threads(int count);
 /// f(i) for 0 ≤ i < count, in any order.
 template <class F>
 void for_each(int count, F&& f) {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (count > 1000)
   for (int i = 0; i < count; ++i) f(i);
 }
 
@@ -25,7 +25,7 @@ Sum sum_over_chunks(int count, int chunk, F&& f) {
   const int chunks = (count + chunk - 1) / chunk;
   std::vector<Sum> partial(static_cast<std::size_t>(chunks));
   std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(chunks));
-#pragma omp parallel for schedule(dynamic, 1)
+#pragma omp parallel for schedule(dynamic, 1) if (chunks > 1)
   for (int c = 0; c < chunks; ++c) {
     try {
       partial[c] = f(c * chunk, std::min(count, (c + 1) * chunk));

@@ -84,6 +84,8 @@ ModelDescription Subloading::description() {
       },
       {
           {"R", "R", "-", "homothety ratio of the subloading to the yield surface", FieldKind::scalar},
+          {"epsp_v", "ε_v^p", "-", "plastic volumetric strain, compression positive", FieldKind::scalar},
+          {"epsp_q", "ε_q^p", "-", "plastic deviatoric strain, √(2/3) ‖dev ε^p‖", FieldKind::scalar},
       },
       {
           {"R_b", "number ≥ 1", "bonding factor; required"},

@@ -112,7 +112,7 @@ class Subloading {
 
   template <int N>
   std::vector<double> derived(const State<double, N>& s) const {
-    return {homothety(s).R};
+    return {homothety(s).R, trace(s.epsp), 0.81649658092772603273 * norm(deviator(s.epsp))};
   }
 
   /// η_β,cs: the stress ratio that beta tends to (this project's closure), from the critical state ratio M_cs(θ).

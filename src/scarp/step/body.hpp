@@ -1,6 +1,7 @@
 // Everything that a time step works on: the mesh with its conditions, the material points, and the sums at the nodes.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Node {
   double m = 0;           ///< eq. 1
   Vec<Dim> v{};           ///< v^t; after step 5, v^{t+dt} (eq. 8)
   Vec<Dim> a{};           ///< eq. 5
+  std::uint8_t held = 0;  ///< bit j set where the conditions hold component j
   Vec<Dim> F_damping{};   ///< local damping
   Vec<Dim> F_friction{};  ///< of a wall
 };

@@ -42,45 +42,56 @@ void map_points_to_elements(Body<2>& body) {
   });
 }
 
-/// Steps 2 and 3: assembly, and a_n = (F_grav − F_int) / m_n (eq. 5) with local damping against the motion and the
-/// conditions.
+/// Step 2: what a node receives from the elements around it.
+transfer::NodeSums<2> assembled(const Body<2>& body, int n) {
+  transfer::NodeSums<2> sum;
+  exec::gather(body.incidence, body.active, n, [&](int slot, int i) {
+    const auto& part = body.sums[slot][i];
+    sum.m += part.m;
+    for (int j = 0; j < 2; ++j) {
+      sum.p[j] += part.p[j];
+      sum.F_int[j] += part.F_int[j];
+    }
+  });
+  return sum;
+}
+
+/// Step 3: a_n = (F_grav − F_int) / m_n (eq. 5) with local damping against the motion, and the conditions.
+Node<2> accelerated(const Body<2>& body, int n, const transfer::NodeSums<2>& sum, double dt, double damping) {
+  Node<2> node;
+  node.m = sum.m;
+  for (int j = 0; j < 2; ++j) {
+    const double F = sum.m * body.gravity[j] - sum.F_int[j];
+    node.v[j] = sum.p[j] / sum.m;
+    node.F_damping[j] = node.v[j] == 0 ? 0 : -std::copysign(damping * std::abs(F), node.v[j]);
+    node.a[j] = (F + node.F_damping[j]) / sum.m;
+  }
+  const auto reaction = constrain_acceleration<2>(body.conditions, n, node.m, node.v, dt, node.a);
+  node.F_friction = reaction.friction;
+  node.held = reaction.held;
+  for (int j = 0; j < 2; ++j) {
+    if (node.held & (1u << j)) node.F_damping[j] = 0;
+  }
+  return node;
+}
+
+/// Steps 2 and 3 for all active nodes.
 void accelerate_nodes(Body<2>& body, double dt, const StepSettings& settings, StepBooks<2>& books) {
-  const auto forces =
-      exec::sum_over_chunks<Tally<2>>(static_cast<int>(body.nodes.size()), node_chunk, [&](int first, int last) {
-        Tally<2> tally;
-        for (int k = first; k < last; ++k) {
-          const int n = body.nodes[k];
-          Node<2>& node = body.node[n];
-          transfer::NodeSums<2> sum;
-          exec::gather(body.incidence, body.active, n, [&](int slot, int i) {
-            const auto& part = body.sums[slot][i];
-            sum.m += part.m;
-            for (int j = 0; j < 2; ++j) {
-              sum.p[j] += part.p[j];
-              sum.F_int[j] += part.F_int[j];
-            }
-          });
-          node = Node<2>{};
-          node.m = sum.m;
-          if (sum.m < body.least_mass) continue;
-          for (int j = 0; j < 2; ++j) {
-            const double F_grav = sum.m * body.gravity[j];
-            const double F = F_grav - sum.F_int[j];
-            node.v[j] = sum.p[j] / sum.m;
-            node.F_damping[j] = node.v[j] == 0 ? 0 : -std::copysign(settings.damping * std::abs(F), node.v[j]);
-            node.a[j] = (F + node.F_damping[j]) / sum.m;
-            tally.sum[1] += std::abs(F_grav);
-          }
-          const Vec<2> free = node.a;
-          node.F_friction = constrain_acceleration<2>(body.conditions, n, node.m, node.v, dt, node.a);
-          for (int j = 0; j < 2; ++j) {
-            const bool held = node.a[j] == 0 && free[j] != 0;
-            if (held) node.F_damping[j] = 0;
-            if (!held) tally.sum[0] += std::abs(node.m * node.a[j] - node.F_damping[j]);
-          }
-        }
-        return tally;
-      });
+  const int count = static_cast<int>(body.nodes.size());
+  const auto forces = exec::sum_over_chunks<Tally<2>>(count, node_chunk, [&](int first, int last) {
+    Tally<2> tally;
+    for (int k = first; k < last; ++k) {
+      const int n = body.nodes[k];
+      const auto sum = assembled(body, n);
+      Node<2>& node = body.node[n];
+      node = sum.m < body.least_mass ? Node<2>{} : accelerated(body, n, sum, dt, settings.damping);
+      for (int j = 0; j < 2; ++j) {
+        if (!(node.held & (1u << j))) tally.sum[0] += std::abs(node.m * node.a[j] - node.F_damping[j]);
+        tally.sum[1] += std::abs(node.m * body.gravity[j]);
+      }
+    }
+    return tally;
+  });
   books.unbalanced_force = forces.sum[0];
   books.weight = forces.sum[1];
 }
@@ -93,6 +104,7 @@ void update_velocities(Body<2>& body, double dt, const StepSettings& settings, S
     for (int i = 0; i < Shape::nodes; ++i) {
       const Node<2>& node = body.node[n[i]];
       motion[i] = {node.a, {node.v[0] + node.a[0] * dt, node.v[1] + node.a[1] * dt}};
+      constrain_velocity<2>(body.conditions, n[i], node.held, motion[i].v);
     }
     std::array<Vec<2>, Shape::nodes> momentum{};
     Tally<1> pic;
@@ -126,7 +138,7 @@ void velocities_of_nodes(Body<2>& body, double dt, StepBooks<2>& books) {
             tally.sum[1] -= node.F_friction[j] * path;
             node.v[j] = v;
           }
-          constrain_velocity<2>(body.conditions, n, node.v);
+          constrain_velocity<2>(body.conditions, n, node.held, node.v);
         }
         return tally;
       });
@@ -186,6 +198,7 @@ void remove_lost(Block<2>& block, StepBooks<2>& books) {
     gone[i] = points.element[i] < 0;
     if (!gone[i]) continue;
     ++books.removed;
+    books.removed_mass += points.mass[i];
     books.removed_energy += 0.5 * points.mass[i] * (points.v[0][i] * points.v[0][i] + points.v[1][i] * points.v[1][i]);
   }
   remove_points(block, gone);

@@ -24,7 +24,7 @@ struct StepBooks {
   double dissipation_damping = 0, dissipation_friction = 0, dissipation_pic = 0;
   double kinetic_energy = 0, mass = 0, max_velocity = 0;  ///< of the points at the end
   Vec<Dim> momentum{};
-  double removed_energy = 0;  ///< kinetic, of points that left the mesh
+  double removed_energy = 0, removed_mass = 0;  ///< kinetic energy and mass of points that left the mesh
   std::int64_t removed = 0;
   exec::StressBooks stress;
   SearchCounts search;

@@ -1,0 +1,129 @@
+// Uniform stress carried through the mesh, and rigid rotation of a stressed body.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "body_maker.hpp"
+
+namespace scarp::verification {
+namespace {
+
+constexpr double sigma_0 = -1.0;  // of a stiffness of 100
+
+/// A long bar of uniform stress between smooth walls, moving along itself through `cells` elements; returns the largest
+/// change of σ_xx over |σ_0| among points that no wave from the free ends has reached.
+double stress_noise(double cells, double points_per_cell) {
+  constexpr double E = 100, v = 5, length = 60;  // wave speed 10, elements of 1
+  auto body = on_grid({0, 0}, {80, 2}, {80, 2}, {0, 0});
+  auto& bar = add_box(body, linear_elastic(E, 0.0), 1.0, {4, 0}, {4 + length, 2},
+                      {static_cast<int>(length * points_per_cell), 4});
+  for (int p = 0; p < bar.size(); ++p) {
+    bar.points.v[0][p] = v;
+    bar.points.sigma[0][p] = sigma_0;
+    bar.points.x[0][p] += 1e-3;  // off the symmetric places, where all would cross at once
+  }
+  locate_points(body);
+  for (const char* side : {"bottom", "top"}) fix(body.conditions, body.mesh->node_sets.at(side), 1);
+  const double end = cells / v;
+  run_until(body, end, 0.3, {}, [](double, const StepBooks<2>&) {});
+  const double reached =
+      10 * end + 12;  // elements that the waves may have come to, with what runs ahead of them in a mesh
+  double worst = 0;
+  const auto& points = body.blocks[0].points;
+  for (int p = 0; p < points.size(); ++p) {
+    const double place = points.x[0][p] - points.u[0][p] - 4;
+    if (place < reached || place > length - reached) continue;
+    worst = std::max(worst, std::abs(points.sigma[0][p] - sigma_0));
+  }
+  return worst / std::abs(sigma_0);
+}
+
+TEST(Patch, UniformStressStaysUniformWithinElements) {
+  // Oracle: a uniform stress has no internal force at inner nodes, so nothing changes; round-off of 10² steps.
+  EXPECT_LT(stress_noise(0.2, 2), 1e-12);
+}
+
+TEST(Patch, UniformStressAcrossElementsHasTheKnownCrossingNoise) {
+  // Linear shape functions: a node feels σ (Ω_left − Ω_right)/h of the soil in the elements beside it. With two points
+  // per element all cross together and the sums stay equal; with two and a half the number alternates between 2 and 3,
+  // and the force at a node jumps by σ/2.5. Reported, and bounded by the stress itself.
+  const double even = stress_noise(4, 2), uneven = stress_noise(4, 2.5);
+  EXPECT_LT(even, 1e-6);
+  EXPECT_LT(uneven, 1.0);
+  EXPECT_GT(uneven, 1e-3);  // if it vanished, the shape functions would not be linear
+  std::printf("crossing noise over 4 elements: %.2e (2 points per element), %.2e (2.5)\n", even, uneven);
+}
+
+/// The four components of Q A Qᵀ for a turn by `angle`, anticlockwise, by the plain formula.
+std::array<double, 4> turned(const std::array<double, 4>& a, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle), xy = a[3] / sqrt2;
+  return {c * c * a[0] + s * s * a[1] - 2 * c * s * xy, s * s * a[0] + c * c * a[1] + 2 * c * s * xy, a[2],
+          sqrt2 * (c * s * (a[0] - a[1]) + (c * c - s * s) * xy)};
+}
+
+TEST(RigidRotation, TurnsStressBetaAndCentreWithTheBody) {
+  // Nodes move with v = ω × x exactly; steps 6 to 10 and 7 then see pure spin.
+  const auto model = *make_model("subloading", {{"kappa", .02},
+                                                {"lambda", .12},
+                                                {"nu", .3},
+                                                {"p_e", 5},
+                                                {"M", 1.0},
+                                                {"M_c", 1.3},
+                                                {"k", .78},
+                                                {"alpha", 1},
+                                                {"xi", .01},
+                                                {"c_R", 60},
+                                                {"c_beta", 5},
+                                                {"c_b", 20},
+                                                {"R_bf", 1},
+                                                {"c_a", 3},
+                                                {"p_atm", 101.325}})
+                          .model;
+  auto body = on_grid({-1, -1}, {1, 1}, {2, 2}, {0, 0});
+  auto& block = add_box(body, model, 1.8, {-0.8, -0.8}, {0.8, 0.8}, {4, 4});
+  const std::array<double, 4> sigma{-60, -100, -70, 20 * sqrt2}, beta{-0.1, 0.25, -0.15, 0.05 * sqrt2},
+      a{30, 50, 35, -10 * sqrt2};
+  for (int p = 0; p < block.size(); ++p) {
+    for (int c = 0; c < 4; ++c) {
+      block.points.sigma[c][p] = sigma[c];
+      block.state[c][p] = beta[c];
+      block.state[4 + c][p] = a[c];
+    }
+    block.state[12][p] = 250;  // p_c
+    block.state[13][p] = 2;    // R_b
+  }
+  locate_points(body);
+  constexpr int steps = 100;
+  const double angle = std::numbers::pi / 2,
+               w = 2 * std::tan(angle / steps / 2);  // exact turn per step by Hughes–Winget
+  for (int s = 0; s < steps; ++s) {
+    for (auto& points : {&block.points}) {
+      for (auto& strain : points->deps) std::fill(strain.begin(), strain.end(), 0.0);
+      // ω dt = w: L dt = [[0, −w], [w, 0]], from nodal velocities through step 6.
+      for (int slot = 0; slot < body.active.size(); ++slot) {
+        const int e = body.active.element[slot];
+        const auto x_i = node_positions<Q4>(*body.mesh, e);
+        std::array<Vec<2>, 4> v_i;
+        for (int i = 0; i < 4; ++i) v_i[i] = {-w * x_i[i][1], w * x_i[i][0]};
+        const transfer::Range range{block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]};
+        transfer::nodes_to_points<Q4>(x_i, v_i, 1.0, *points, range);
+      }
+    }
+    exec::update_stresses(block, body.mesh->size, {});
+  }
+  const auto sigma_exact = turned(sigma, angle), beta_exact = turned(beta, angle), a_exact = turned(a, angle);
+  for (int p = 0; p < block.size(); ++p) {
+    for (int c = 0; c < 4; ++c) {
+      // Round-off of a hundred rotations; the strain of nodes that move on tangents is round-off of L too.
+      EXPECT_NEAR(block.points.sigma[c][p], sigma_exact[c], 1e-11);
+      EXPECT_NEAR(block.state[c][p], beta_exact[c], 1e-13);
+      EXPECT_NEAR(block.state[4 + c][p], a_exact[c], 1e-11);
+    }
+    EXPECT_NEAR(block.state[12][p], 250, 1e-10);
+    EXPECT_NEAR(block.state[13][p], 2, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace scarp::verification
