@@ -39,17 +39,18 @@ struct RegionInput {
   double spacing = 0;        ///< distance between points [m]
   Vec<2> velocity{};         ///< initial velocity [m/s]
   std::optional<double> K0;  ///< horizontal over vertical effective stress; not set: from the model
-  std::optional<std::array<double, 4>> stress;  ///< uniform (xx, yy, zz, xy), compression positive, instead of the weight above
-  Values initial;            ///< keys that the model declares for its initial state
+  std::optional<std::array<double, 4>>
+      stress;      ///< uniform (xx, yy, zz, xy), compression positive, instead of the weight above
+  Values initial;  ///< keys that the model declares for its initial state
   Position position;
 };
 
 /// [[boundary]]: nodes of a named set, or within round-off of a segment.
 struct BoundaryInput {
-  std::optional<std::string> nodes;                ///< name of a node set of the mesh
+  std::optional<std::string> nodes;  ///< name of a node set of the mesh
   std::optional<std::array<Vec<2>, 2>> line;
   bool fix_x = false, fix_y = false;
-  std::optional<double> friction;                  ///< coefficient on a wall; the fixed component is the wall's normal
+  std::optional<double> friction;  ///< coefficient on a wall; the fixed component is the wall's normal
   Position position;
 };
 
@@ -71,9 +72,9 @@ struct RestInput {
 /// [[stage]]
 struct StageInput {
   std::string name;
-  double duration = 0;          ///< [s]
-  double damping = 0;           ///< local (non-viscous) damping coefficient, 0 to below 1
-  std::optional<double> flip;   ///< overrides MethodInput::flip
+  double duration = 0;             ///< [s]
+  double damping = 0;              ///< local (non-viscous) damping coefficient, 0 to below 1
+  std::optional<double> flip;      ///< overrides MethodInput::flip
   bool zero_displacement = false;  ///< set displacements and strains to zero at the start
   bool zero_velocity = false;      ///< set velocities to zero at the start
   std::optional<RemovalInput> remove;
@@ -83,17 +84,17 @@ struct StageInput {
 
 /// [method]
 struct MethodInput {
-  double flip = 1.0;        ///< share of FLIP in the velocity update; 1 is the report's
-  double safety = 0.5;      ///< of the critical time step
-  double tolerance = 1e-4;  ///< of the stress integration, relative
+  double flip = 1.0;            ///< share of FLIP in the velocity update; 1 is the report's
+  double safety = 0.5;          ///< of the critical time step
+  double tolerance = 1e-4;      ///< of the stress integration, relative
   bool remove_leaving = false;  ///< a point that leaves the mesh is removed and counted, instead of an error
   int largest_failures = 0;     ///< failed stress updates before the run stops
 };
 
 /// [output]
 struct OutputInput {
-  double every = 0;     ///< time between frames [s]; 0: only at the start and end of each stage
-  double history = 0;   ///< time between rows of history.csv [s]; 0: every step
+  double every = 0;                     ///< time between frames [s]; 0: only at the start and end of each stage
+  double history = 0;                   ///< time between rows of history.csv [s]; 0: every step
   std::string colour = "displacement";  ///< field that `scarp plot` shows unless told otherwise
 };
 

@@ -1,0 +1,148 @@
+#include "scarp/input/document.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+// toml++ 3.3.0 asserts on some malformed input: make that an exception like its others.
+#define TOML_ASSERT(expression) \
+  if (!(expression)) throw std::logic_error("toml++: " #expression)
+#define TOML_EXCEPTIONS 1
+#define TOML_HEADER_ONLY 1
+#if defined(__GNUC__) && !defined(__clang__)
+// Some assertions stand in noexcept functions, on what the parser itself has made: there throwing would end the
+// program.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wterminate"
+#endif
+#include <toml++/toml.h>
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+
+namespace scarp::input {
+namespace {
+
+/// toml++ 3.3.0 misreads non-ASCII letters outside strings and comments: finds the first.
+class AsciiCheck {
+ public:
+  AsciiCheck(const std::string& text, const std::string& name) : text_(text), name_(name) {}
+
+  void run() {
+    while (at_ < text_.size()) {
+      const char c = text_[at_];
+      if (c == '#') {
+        skip_comment();
+      } else if (c == '"' || c == '\'') {
+        skip_string(c);
+      } else {
+        if (static_cast<unsigned char>(c) > 127) refuse();
+        step();
+      }
+    }
+  }
+
+ private:
+  void step() {
+    if (text_[at_] == '\n') {
+      ++line_;
+      start_ = at_ + 1;
+    }
+    ++at_;
+  }
+
+  void skip_comment() {
+    while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+  }
+
+  void skip_string(char quote) {
+    const std::string triple(3, quote);
+    const bool many_lines = text_.compare(at_, 3, triple) == 0;
+    for (int k = many_lines ? 3 : 1; k > 0; --k) step();
+    while (at_ < text_.size()) {
+      if (many_lines && text_.compare(at_, 3, triple) == 0) {
+        at_ += 3;
+        return;
+      }
+      const char c = text_[at_];
+      if (!many_lines && (c == quote || c == '\n')) {
+        step();
+        return;
+      }
+      if (c == '\\' && quote == '"' && at_ + 1 < text_.size()) step();
+      step();
+    }
+  }
+
+  [[noreturn]] void refuse() const {
+    throw InputError("letters outside ASCII stand in quotes or comments only", "one here",
+                     "put the key or value in quotes, or use plain letters",
+                     {name_, line_, static_cast<int>(at_ - start_) + 1});
+  }
+
+  const std::string& text_;
+  const std::string& name_;
+  std::size_t at_ = 0, start_ = 0;
+  int line_ = 1;
+};
+
+Position position_of(const toml::source_region& source, const std::string& name) {
+  return {name, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
+}
+
+Node converted(const toml::node& node, const std::string& name);
+
+Node converted_table(const toml::table& table, const std::string& name) {
+  Keys keys;
+  for (const auto& [key, value] : table) {
+    Node child = converted(value, name);
+    // A message about a key points at the key; tables point at their own header.
+    if (!child.is_table()) child.position = position_of(key.source(), name);
+    keys.emplace(std::string(key.str()), std::move(child));
+  }
+  return {position_of(table.source(), name), std::move(keys)};
+}
+
+Node converted(const toml::node& node, const std::string& name) {
+  const Position at = position_of(node.source(), name);
+  if (const auto* table = node.as_table()) return converted_table(*table, name);
+  if (const auto* list = node.as_array()) {
+    List items;
+    for (const auto& item : *list) items.push_back(converted(item, name));
+    return {at, std::move(items)};
+  }
+  if (const auto* text = node.as_string()) return {at, text->get()};
+  if (const auto* truth = node.as_boolean()) return {at, truth->get()};
+  if (const auto* whole = node.as_integer()) return {at, static_cast<double>(whole->get()), true};
+  if (const auto* number = node.as_floating_point()) return {at, number->get()};
+  throw InputError("dates and times have no place in a case", "one here", "write a number or a text in quotes", at);
+}
+
+}  // namespace
+
+Node parse_text(const std::string& text, const std::string& name) {
+  AsciiCheck(text, name).run();
+  try {
+    const toml::table table = toml::parse(text, name);
+    return converted_table(table, name);
+  } catch (const toml::parse_error& error) {
+    throw InputError(fmt::format("this is not TOML: {}", error.description()), "", "see toml.io for the form",
+                     position_of(error.source(), name));
+  } catch (const std::logic_error& error) {
+    throw InputError("this is not TOML", error.what(), "see toml.io for the form", {name});
+  }
+}
+
+Node parse_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    throw InputError("the case file cannot be read", path, "check the name and that you may read it");
+  }
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  if (file.bad()) throw InputError("the case file cannot be read", path, "is it a folder?");
+  return parse_text(text, path);
+}
+
+}  // namespace scarp::input

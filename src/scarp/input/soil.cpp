@@ -1,0 +1,117 @@
+// Materials and regions of a case.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scarp/base/log.hpp"
+#include "scarp/input/readers.hpp"
+
+namespace scarp::input {
+namespace {
+
+[[noreturn]] void refuse(const Problem& problem, const std::map<std::string, Position>& places, const Position& table) {
+  const auto found = places.find(problem.key);
+  throw InputError(problem.what, problem.value, problem.remedy, found == places.end() ? table : found->second);
+}
+
+/// One value of a region's initial state: a number, a word or a list of numbers.
+Value value_of(const Node& node, const std::string& key) {
+  if (const auto* number = std::get_if<double>(&node.value))
+    return number_in({node.position, *number}, key, any_number);
+  if (const auto* text = std::get_if<std::string>(&node.value)) return *text;
+  if (node.is_list()) return numbers_in(node, key, 0);
+  throw InputError(fmt::format("{} is a number, a text or a list of numbers", key), describe(node),
+                   "see `scarp models` for what it takes", node.position);
+}
+
+Values read_initial(const Node& node, const MaterialInput& material) {
+  const auto description = std::visit([]<class Model>(const Model&) { return Model::description(); }, material.model);
+  Values values;
+  std::set<std::string> known;
+  for (const auto& info : description.initial) known.insert(info.key);
+  Table table(node, "initial");
+  for (const auto& [key, item] : table.rest()) {
+    if (!known.contains(key)) {
+      const auto like = nearest(key, known);
+      throw InputError(fmt::format("the model {} has no initial value {}", description.name, key), describe(*item),
+                       known.empty() ? "leave initial out: this model has no state of its own"
+                       : like        ? fmt::format("did you mean {}?", *like)
+                                     : fmt::format("its initial values are {}", fmt::join(known, ", ")),
+                       item->position);
+    }
+    values[key] = value_of(*item, key);
+  }
+  return values;
+}
+
+}  // namespace
+
+MaterialInput read_material(const Node& node) {
+  Table table(node, "[[material]]");
+  std::string name = table.text("name", "add name = \"clay\", for instance");
+  const Node& model = table.need("model", "add model = \"subloading\", for instance; `scarp models` lists them");
+  const std::string model_name = text_in(model, "model");
+  const double density = table.number("density", positive, "add the density of the soil, such as density = 1.8");
+  std::map<std::string, double> values;
+  std::map<std::string, Position> places{{"model", model.position}};
+  for (const auto& [key, item] : table.rest()) {
+    places[key] = item->position;
+    // Its bounds are the model's; make_model() checks that it is finite, too.
+    const auto* number = std::get_if<double>(&item->value);
+    if (!number)
+      throw InputError(fmt::format("{} is a number", key), describe(*item), "write a number, without quotes",
+                       item->position);
+    values[key] = *number;
+  }
+  auto result = make_model(model_name, values);
+  if (!result.problems.empty()) refuse(result.problems.front(), places, node.position);
+  for (const auto& warning : result.warnings) {
+    const auto found = places.find(warning.key);
+    logging::warn(
+        InputError(warning.what, warning.value, warning.remedy, found == places.end() ? node.position : found->second)
+            .what());
+  }
+  return {std::move(name), *result.model, density, node.position};
+}
+
+RegionInput read_region(const Node& node, const std::vector<MaterialInput>& materials) {
+  Table table(node, "[[region]]");
+  RegionInput region;
+  region.position = node.position;
+  region.name = table.text("name", "add name = \"slope\", for instance");
+  const Node& material = table.need("material", "add material = \"...\", the name of a [[material]]");
+  const std::string wanted = text_in(material, "material");
+  std::vector<std::string> names;
+  for (const auto& candidate : materials) names.push_back('"' + candidate.name + '"');
+  for (region.material = 0; region.material < materials.size(); ++region.material) {
+    if (materials[region.material].name == wanted) break;
+  }
+  if (region.material == materials.size()) {
+    throw InputError("there is no such material", '"' + wanted + '"',
+                     fmt::format("choose one of {}", fmt::join(names, ", ")), material.position);
+  }
+  region.polygon = read_polygon(table.need("polygon", "add the corners of the region"), "the polygon of the region");
+  region.spacing =
+      table.number("spacing", positive, "add the distance between material points, such as spacing = 0.25");
+  region.velocity = table.vector("velocity").value_or(Vec<2>{0, 0});
+  const Node* K0 = table.find("K0");
+  const Node* stress = table.find("stress");
+  if ((K0 != nullptr) == (stress != nullptr)) {
+    throw InputError("a region has either K0, for stresses from the weight of the soil, or a uniform stress",
+                     K0 ? "both" : "neither", "write K0 = 0.6, K0 = \"model\" or stress = [0.0, 0.0, 0.0, 0.0]",
+                     node.position);
+  }
+  if (stress) {
+    const auto numbers = numbers_in(*stress, "stress", 4);
+    region.stress = std::array<double, 4>{numbers[0], numbers[1], numbers[2], numbers[3]};
+  } else if (std::holds_alternative<std::string>(K0->value)) {
+    if (std::get<std::string>(K0->value) != "model")
+      throw InputError("K0 is a number or \"model\"", describe(*K0), "write K0 = 0.6 or K0 = \"model\"", K0->position);
+  } else {
+    region.K0 = number_in(*K0, "K0", not_negative);
+  }
+  if (const Node* initial = table.find("initial")) region.initial = read_initial(*initial, materials[region.material]);
+  table.finish();
+  return region;
+}
+
+}  // namespace scarp::input
