@@ -11,6 +11,11 @@ namespace scarp::exec {
 /// Number of threads that loops use from now on; 0 leaves it to the system. Returns the number in use.
 int set_threads(int count);
 
+/// Lets threads that wait for each other sleep soon, instead of holding a core that others may need: on a machine
+/// shared with other work that makes a step many times faster. The OpenMP library reads this from the environment
+/// before main(), so the program starts itself once more with it; a user's own settings are kept. Call first in main().
+void wait_politely(char** argv);
+
 /// f(i) for 0 ≤ i < count, in any order.
 template <class F>
 void for_each(int count, F&& f) {
