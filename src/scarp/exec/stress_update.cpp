@@ -40,7 +40,9 @@ double crossing_time(const Points<Dim>& points, int p, double modulus, const std
   if (!(modulus > 0)) return std::numeric_limits<double>::infinity();
   double v2 = 0;
   for (int j = 0; j < Dim; ++j) v2 += points.v[j][p] * points.v[j][p];
-  const double c = std::sqrt(modulus * points.volume[p] / points.mass[p]);
+  // Where a point stands for more than its volume, its stiffness does too.
+  const double volume = points.volume[p] * std::max(1.0, points.weight[p]);
+  const double c = std::sqrt(modulus * volume / points.mass[p]);
   return element_size[points.element[p]] / (c + std::sqrt(v2));
 }
 
@@ -77,7 +79,8 @@ class Sweep {
     const auto good = trial.notes.sound && (trial.error <= Batch(settings_.tolerance));
     store_state(select_state(good, trial.state, old), i, count);
 
-    const Batch Omega = load(points_.volume, i, count) * (Batch(1.0) + Batch(0.5) * trace(deps));  // of mid-step
+    const Batch Omega = load(points_.weight, i, count) * load(points_.volume, i, count) *
+                        (Batch(1.0) + Batch(0.5) * trace(deps));  // of mid-step
     std::array<double, W> work, modulus;
     (Omega * Batch(0.5) * dot(turned.sigma + trial.state.sigma, deps)).store_unaligned(work.data());
     model_.p_wave_modulus(trial.state).store_unaligned(modulus.data());
@@ -109,7 +112,7 @@ class Sweep {
     const Sym<double, N> before = s.sigma;
     const auto report = integrate<ModifiedEuler>(model_, s, deps, settings_, 0.5);
     store_state(s, p);
-    books.work += points_.volume[p] * (1 + 0.5 * trace(deps)) * 0.5 * dot(before + s.sigma, deps);
+    books.work += points_.weight[p] * points_.volume[p] * (1 + 0.5 * trace(deps)) * 0.5 * dot(before + s.sigma, deps);
     record(p, report.substeps, report.notes, report.end, books);
     time_step(p, model_.p_wave_modulus(s), books);
   }

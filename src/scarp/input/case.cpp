@@ -139,6 +139,14 @@ MethodInput read_method(const Node& node) {
   Table table(node, "[method]");
   MethodInput method;
   method.flip = table.number_or("flip", {0, 1}, method.flip);
+  if (const Node* quadrature = table.find("quadrature")) {
+    const auto word = text_in(*quadrature, "quadrature");
+    if (word != "corrected" && word != "points")
+      throw InputError("quadrature is \"corrected\" or \"points\"", describe(*quadrature),
+                       "\"points\" is the report's sum over points, \"corrected\" makes it exact inside the soil",
+                       quadrature->position);
+    method.corrected_quadrature = word == "corrected";
+  }
   method.safety = table.number_or("safety", {0, 1, true, false}, method.safety);
   method.tolerance = table.number_or("tolerance", {1e-12, 0.1}, method.tolerance);
   method.largest_failures = table.whole_or("largest_failures", 0, 1000000000, 0);

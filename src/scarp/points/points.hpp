@@ -40,6 +40,7 @@ struct Points {
   // Of the step under way:
   std::array<Column, stress_size> deps;     ///< strain increment (eq. 10), Mandel components
   std::array<Column, spin_size<Dim>> spin;  ///< spin increment (eq. 11): W_xy (, W_yz, W_zx)
+  Column weight;                            ///< volume that stands for the point in its element's quadrature / Ω_p
 
   int size() const { return static_cast<int>(mass.size()); }
 };
@@ -71,7 +72,7 @@ struct Block {
 template <int Dim, class F>
 void for_each_column(Block<Dim>& b, F&& f) {
   auto& p = b.points;
-  for (auto* column : {&p.mass, &p.volume, &p.initial_volume, &p.eps_q}) f(*column);
+  for (auto* column : {&p.mass, &p.volume, &p.initial_volume, &p.eps_q, &p.weight}) f(*column);
   for (auto* group : {&p.x, &p.v, &p.u, &p.xi}) {
     for (auto& column : *group) f(column);
   }

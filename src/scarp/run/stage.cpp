@@ -126,6 +126,7 @@ StageRecord run_stage(Context& context, int index) {
   if (stage.rest) rest.emplace(*stage.rest, body);
   const StepSettings settings{stage.flip.value_or(input.method.flip),
                               stage.damping,
+                              input.method.corrected_quadrature ? Quadrature::corrected : Quadrature::points,
                               {input.method.tolerance, 1e-5},
                               input.method.remove_leaving};
   Clock frames(ledger.time, input.output.every), rows(ledger.time, input.output.history);

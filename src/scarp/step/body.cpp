@@ -56,6 +56,7 @@ template <int Dim>
 void reorder(Body<Dim>& body) {
   sort_by_element(body.blocks, body.mesh->element_count(), body.active);
   body.nodes = exec::active_nodes(*body.mesh, body.active);
+  body.quadrature.assign(static_cast<std::size_t>(body.active.size()), {});
   body.sums.resize(static_cast<std::size_t>(body.active.size()));
   body.momentum.resize(static_cast<std::size_t>(body.active.size()));
 }

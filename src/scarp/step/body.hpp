@@ -41,6 +41,7 @@ struct Body {
   double least_mass = 0;   ///< a node with less only has points on the far edges of its elements, and is left out
   int out_of_place = 0;    ///< points that changed element since their arrays were last put in order
 
+  std::vector<transfer::Quadrature> quadrature;  ///< of each active element, of the step under way
   exec::Incidence incidence;
   exec::ElementRows<transfer::NodeSums<Dim>> sums;
   exec::ElementRows<Vec<Dim>> momentum;

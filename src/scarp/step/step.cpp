@@ -30,13 +30,31 @@ transfer::Range points_of(const Block<Dim>& block, int slot) {
   return {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]};
 }
 
+/// Is the element inside the soil, so that it is full? Then all elements around it hold points.
+bool inside_the_soil(const Body<2>& body, int e) {
+  for (const int neighbour : body.mesh->elements_around(e)) {
+    if (body.active.slot[neighbour] < 0) return false;
+  }
+  return true;
+}
+
+template <class Shape>
+transfer::Quadrature quadrature_of(const Body<2>& body, const NodePositions<Shape>& x_i, int slot) {
+  transfer::PointIntegrals<Shape> sums;
+  for (const auto& block : body.blocks) transfer::add_points<Shape>(x_i, block.points, points_of(block, slot), sums);
+  return transfer::full_element<Shape>(x_i, sums);
+}
+
 /// Step 1: every element adds up mass, momentum and internal force for its own local nodes from its own points.
-void map_points_to_elements(Body<2>& body) {
+void map_points_to_elements(Body<2>& body, Quadrature choice) {
   exec::sweep_elements<Nothing>(*body.mesh, body.active, [&]<class Shape>(Shape, int slot, int e) {
     const auto x_i = node_positions<Shape>(*body.mesh, e);
+    auto& quadrature = body.quadrature[slot];
+    const bool corrected = choice == Quadrature::corrected && inside_the_soil(body, e);
+    quadrature = corrected ? quadrature_of<Shape>(body, x_i, slot) : transfer::Quadrature{};
     std::array<transfer::NodeSums<2>, Shape::nodes> sums{};
-    for (const auto& block : body.blocks)
-      transfer::points_to_nodes<Shape>(x_i, block.points, points_of(block, slot), sums);
+    for (auto& block : body.blocks)
+      transfer::points_to_nodes<Shape>(x_i, quadrature, block.points, points_of(block, slot), sums);
     std::copy(sums.begin(), sums.end(), body.sums[slot].begin());
     return Nothing{};
   });
@@ -155,7 +173,8 @@ void strain_and_move(Body<2>& body, double dt, StepBooks<2>& books) {
     for (int i = 0; i < Shape::nodes; ++i) v_i[i] = body.node[n[i]].v;
     Tally<2> sum;
     for (auto& block : body.blocks) {
-      const auto part = transfer::nodes_to_points<Shape>(x_i, v_i, dt, block.points, points_of(block, slot));
+      const auto part =
+          transfer::nodes_to_points<Shape>(x_i, body.quadrature[slot], v_i, dt, block.points, points_of(block, slot));
       for (int j = 0; j < 2; ++j) sum.sum[j] += part[j];
     }
     return sum;
@@ -271,12 +290,12 @@ void book_motion<2>(const Body<2>& body, StepBooks<2>& books) {
 template <>
 StepBooks<2> advance<2>(Body<2>& body, double dt, const StepSettings& settings) {
   StepBooks<2> books;
-  map_points_to_elements(body);                  // step 1, eqs 1–4
-  accelerate_nodes(body, dt, settings, books);   // steps 2 and 3, eq. 5
-  update_velocities(body, dt, settings, books);  // steps 4 and 5, eqs 6 and 7
-  velocities_of_nodes(body, dt, books);          // step 5, eq. 8
-  strain_and_move(body, dt, books);              // steps 6, 8, 9 and 10, eqs 9–11 and 14–19
-  for (auto& block : body.blocks) {              // step 7, eqs 12, 13 and section 3
+  map_points_to_elements(body, settings.quadrature);  // step 1, eqs 1–4
+  accelerate_nodes(body, dt, settings, books);        // steps 2 and 3, eq. 5
+  update_velocities(body, dt, settings, books);       // steps 4 and 5, eqs 6 and 7
+  velocities_of_nodes(body, dt, books);               // step 5, eq. 8
+  strain_and_move(body, dt, books);                   // steps 6, 8, 9 and 10, eqs 9–11 and 14–19
+  for (auto& block : body.blocks) {                   // step 7, eqs 12, 13 and section 3
     books.stress += exec::update_stresses(block, body.mesh->size, settings.integration);
   }
   books.work_stress = books.stress.work;

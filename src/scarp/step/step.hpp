@@ -9,9 +9,16 @@
 
 namespace scarp {
 
+/// How the points of an element are its quadrature (transfer/quadrature.hpp).
+enum class Quadrature {
+  points,     ///< eq. 4 as printed, everywhere
+  corrected,  ///< exact for uniform stress in elements inside the soil
+};
+
 struct StepSettings {
   double flip = 1;     ///< share of FLIP in the velocity update; 1 is the report's
   double damping = 0;  ///< local damping coefficient
+  Quadrature quadrature = Quadrature::corrected;
   IntegrationSettings integration;
   bool remove_leaving = false;  ///< a point that leaves the mesh is taken out, instead of an error
 };

@@ -4,8 +4,7 @@
 
 #include <array>
 
-#include "scarp/mesh/shapes.hpp"
-#include "scarp/points/points.hpp"
+#include "scarp/transfer/quadrature.hpp"
 
 namespace scarp::transfer {
 
@@ -24,23 +23,22 @@ struct NodeMotion {
   Vec<Dim> v{};  ///< velocity at t + dt before the second mapping: v^t + a dt
 };
 
-/// The points order[0] ... order[count - 1] of a block, all in one element.
-struct Range {
-  const int* order;
-  int count;
-};
-
 /// Step 1: m_i += Σ m_p N_i, p_i += Σ m_p v_p N_i, F_i^int += Σ B_iᵀ σ_p Ω_p (eqs 1, 2, 4). Gravity (eq. 3) is uniform,
-/// so F_i^grav = m_i g is formed at the node.
+/// so F_i^grav = m_i g is formed at the node. Ω_p and B_i are those of the element's quadrature; the weight stays with
+/// the points for the rest of the step.
 template <class Shape>
-void points_to_nodes(const NodePositions<Shape>& x_i, const Points<2>& points, Range range,
+void points_to_nodes(const NodePositions<Shape>& x_i, const Quadrature& quadrature, Points<2>& points, Range range,
                      std::array<NodeSums<2>, Shape::nodes>& sums) {
   for (int k = 0; k < range.count; ++k) {
     const int p = range.order[k];
     std::array<double, Shape::nodes> N;
     std::array<Vec<2>, Shape::nodes> B;
     gradients<Shape>(x_i, {points.xi[0][p], points.xi[1][p]}, N, B);
-    const double m = points.mass[p], Omega = points.volume[p];
+    for (int i = 0; i < Shape::nodes; ++i) {
+      for (int j = 0; j < 2; ++j) B[i][j] += quadrature.shift[i][j];
+    }
+    points.weight[p] = quadrature.weight;
+    const double m = points.mass[p], Omega = quadrature.weight * points.volume[p];
     const double mv_x = m * points.v[0][p], mv_y = m * points.v[1][p];
     const double s_xx = Omega * points.sigma[0][p], s_yy = Omega * points.sigma[1][p];
     const double s_xy = Omega * points.sigma[3][p] * (1 / sqrt2);
@@ -87,8 +85,8 @@ double update_velocities(const std::array<NodeMotion<2>, Shape::nodes>& node, do
 /// (eqs 10, 11), volume by det(I + L dt) (eq. 14 in its finite form; the density of eq. 15 is m_p / Ω_p), displacement
 /// and position (eqs 16–19). Returns Σ m_p du_p, for the work of gravity.
 template <class Shape>
-Vec<2> nodes_to_points(const NodePositions<Shape>& x_i, const std::array<Vec<2>, Shape::nodes>& v_i, double dt,
-                       Points<2>& points, Range range) {
+Vec<2> nodes_to_points(const NodePositions<Shape>& x_i, const Quadrature& quadrature,
+                       const std::array<Vec<2>, Shape::nodes>& v_i, double dt, Points<2>& points, Range range) {
   Vec<2> moved{};
   for (int k = 0; k < range.count; ++k) {
     const int p = range.order[k];
@@ -100,10 +98,11 @@ Vec<2> nodes_to_points(const NodePositions<Shape>& x_i, const std::array<Vec<2>,
       const double du_ix = dt * v_i[i][0], du_iy = dt * v_i[i][1];
       du_x += du_ix * N[i];
       du_y += du_iy * N[i];
-      L_xx += du_ix * B[i][0];
-      L_xy += du_ix * B[i][1];
-      L_yx += du_iy * B[i][0];
-      L_yy += du_iy * B[i][1];
+      const double B_x = B[i][0] + quadrature.shift[i][0], B_y = B[i][1] + quadrature.shift[i][1];
+      L_xx += du_ix * B_x;
+      L_xy += du_ix * B_y;
+      L_yx += du_iy * B_x;
+      L_yy += du_iy * B_y;
     }
     points.deps[0][p] = L_xx;
     points.deps[1][p] = L_yy;
