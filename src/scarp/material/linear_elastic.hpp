@@ -64,6 +64,9 @@ class LinearElastic {
     return T(K_ + 2.0 / 3.0 * G2_);
   }
 
+  /// Horizontal over vertical stress where nothing moves sideways.
+  double K0() const { return parameters_.nu / (1.0 - parameters_.nu); }
+
   template <int N>
   State<double, N> initial_state(const Sym<double, N>& sigma, double, const Values&, std::vector<Problem>&) const {
     return {sigma};

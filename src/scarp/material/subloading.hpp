@@ -110,6 +110,9 @@ class Subloading {
   State<double, N> initial_state(const Sym<double, N>& sigma, double vertical, const Values& keys,
                                  std::vector<Problem>& problems) const;
 
+  /// The keys of soil on its normal compression line, without structure: where a one-dimensional history starts.
+  Values normally_consolidated() const { return {{"R_b", c_.R_bf}, {"OCR", 1.0}}; }
+
   template <int N>
   std::vector<double> derived(const State<double, N>& s) const {
     return {homothety(s).R, trace(s.epsp), 0.81649658092772603273 * norm(deviator(s.epsp))};
