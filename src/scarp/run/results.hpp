@@ -18,7 +18,7 @@ struct StageRecord {
   std::int64_t steps = 0;
   double unbalanced_ratio = 0, max_velocity = 0, max_displacement = 0;  ///< at its end
   bool removal = false;
-  std::string ended;  ///< "at rest" or "duration"
+  std::string ended;  ///< "at rest", "duration", "interrupted" or "failed"
 };
 
 /// How a run stands, for summary.json.

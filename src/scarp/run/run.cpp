@@ -96,7 +96,7 @@ Outcome run_case(const input::Case& input, const Options& options) {
         cut = true;
         energy.start(ledger);
       }
-      record.stages.push_back(run_stage(context, i));
+      run_stage(context, i, record.stages.emplace_back());
       results.history(i, body.point_count(), ledger);
       results.frame(body, ledger.time);
     }

@@ -112,12 +112,34 @@ double stable_time_step(const Context& context, double critical) {
   return context.input.method.safety * critical;
 }
 
+/// Keeps the record of a stage true at its end, whichever way it ends.
+class RecordKeeper {
+ public:
+  RecordKeeper(StageRecord& record, const Context& context) : record_(record), context_(context) {}
+  ~RecordKeeper() { update(); }
+  RecordKeeper(const RecordKeeper&) = delete;
+  RecordKeeper& operator=(const RecordKeeper&) = delete;
+
+  void update() {
+    const auto& ledger = context_.ledger;
+    record_.end = ledger.time;
+    record_.unbalanced_ratio = ledger.unbalanced_ratio();
+    record_.max_velocity = ledger.last.max_velocity;
+    record_.max_displacement = max_displacement(context_.body);
+  }
+
+ private:
+  StageRecord& record_;
+  const Context& context_;
+};
+
 }  // namespace
 
-StageRecord run_stage(Context& context, int index) {
+void run_stage(Context& context, int index, StageRecord& record) {
   const auto& stage = context.input.stages[index];
   auto& [input, body, ledger, results, progress, interrupted] = context;
-  StageRecord record{stage.name, ledger.time, ledger.time, 0, 0, 0, 0, stage.remove.has_value(), "duration"};
+  record = {stage.name, ledger.time, ledger.time, 0, 0, 0, 0, stage.remove.has_value(), "failed"};
+  RecordKeeper keeper(record, context);
   const double end = ledger.time + stage.duration;
   set_to_zero(body, stage, ledger);
   std::optional<Removal> removal;
@@ -152,10 +174,7 @@ StageRecord run_stage(Context& context, int index) {
     check_failures(context);
   }
 
-  record.end = ledger.time;
-  record.unbalanced_ratio = ledger.unbalanced_ratio();
-  record.max_velocity = ledger.last.max_velocity;
-  record.max_displacement = max_displacement(body);
+  keeper.update();
   record.ended = interrupted() ? "interrupted" : resting ? "at rest" : "duration";
   if (stage.rest && stage.rest->required && !resting && !interrupted()) {
     throw RunError(
@@ -166,7 +185,6 @@ StageRecord run_stage(Context& context, int index) {
                     record.max_velocity),
         "look at the last frame: either the slope does not stand, or the stage needs more time or more damping");
   }
-  return record;
 }
 
 }  // namespace scarp::run

@@ -22,9 +22,9 @@ struct Context {
   const std::function<bool()>& interrupted;
 };
 
-/// Runs stage number `index` and returns its record. Ends early at rest, where the stage asks for it, or when
+/// Runs stage number `index` and keeps its record. Ends early at rest, where the stage asks for it, or when
 /// interrupted. Throws RunError where the body does not come to rest but has to, where stress updates fail more often
-/// than allowed, or where a step cannot be taken.
-StageRecord run_stage(Context& context, int index);
+/// than allowed, or where a step cannot be taken; the record tells how far it came.
+void run_stage(Context& context, int index, StageRecord& record);
 
 }  // namespace scarp::run

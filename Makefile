@@ -1,0 +1,35 @@
+# The commands of the README. Each installs what is missing, configures, builds and runs.
+BUILD := build
+JOBS := $(shell nproc)
+RESULTS := results/slope_cut
+
+.PHONY: help demo test build deps format clean
+
+help:
+	@echo "make demo     cut a slope of structured clay and draw what happens, in $(RESULTS)"
+	@echo "make test     build and run all tests"
+	@echo "make build    build the program, $(BUILD)/bin/scarp"
+	@echo "make format   put the C++ text into the project's format"
+	@echo "make clean    remove $(BUILD)"
+
+demo: build
+	$(BUILD)/bin/scarp run examples/slope_cut/slope_cut.toml --out $(RESULTS)
+	$(BUILD)/bin/scarp plot $(RESULTS)
+
+test: deps
+	cmake --preset release -DSCARP_TESTS=ON
+	cmake --build --preset release --parallel $(JOBS)
+	ctest --preset release --parallel $(JOBS)
+
+build: deps
+	cmake --preset release -DSCARP_TESTS=OFF
+	cmake --build --preset release --parallel $(JOBS)
+
+deps:
+	@tools/install-deps.sh
+
+format:
+	find src apps tests -name '*.?pp' | xargs clang-format-14 -i
+
+clean:
+	rm -rf $(BUILD)
