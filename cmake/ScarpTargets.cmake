@@ -50,6 +50,6 @@ function(scarp_test name)
   if(NOT arg_LABEL)
     set(arg_LABEL unit)
   endif()
-  gtest_discover_tests(${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 
+  gtest_discover_tests(${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS ${arg_LABEL} ENVIRONMENT OMP_WAIT_POLICY=passive)  # tests run beside each other
 endfunction()

@@ -112,6 +112,9 @@ nlohmann::ordered_json stages_json(const std::vector<StageRecord>& stages) {
 }  // namespace
 
 struct Results::Writers {
+  Writers(io::PvdWriter frames_list, io::HistoryWriter table)
+      : collection(std::move(frames_list)), history(std::move(table)) {}
+
   io::PvdWriter collection;
   io::HistoryWriter history;
   int frames = 0;
