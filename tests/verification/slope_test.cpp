@@ -133,6 +133,33 @@ TEST(Slope, LeftAloneTenTimesAsLongItStandsAndItsStructureIsWhole) {
               stage["max_displacement"].get<double>());
 }
 
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Slope, IsTheSameToTheLastBitOnOneAndTwoThreads) {
+  // Rest, cut and the start of the slide, with points that change element and are put in order again.
+  std::map<std::string, std::string> files[2];
+  for (const int threads : {1, 2}) {
+    const fs::path out = fs::path(testing::TempDir()) / fmt::format("scarp_threads_{}", threads);
+    fs::remove_all(out);
+    const auto input = input::read_case(
+        SCARP_EXAMPLES "/slope_cut_grid/slope_cut_grid.toml",
+        {"mesh.grid={ origin = [0.0, 0.0], size = [45.0, 17.0], elements = [45, 17] }", "region.0.spacing=0.4",
+         "stage.0.duration=0.5", "stage.0.rest.required=false", "stage.1.duration=1.5", "output.history=0.0"});
+    run::run_case(input, {out.string(), threads, true});
+    for (const auto& file : fs::directory_iterator(out)) {
+      const auto name = file.path().filename().string();
+      if (name != "summary.json") files[threads - 1][name] = bytes_of(file.path());  // wall time is in there
+    }
+    fs::remove_all(out);
+  }
+  ASSERT_GT(files[0].size(), 8u);
+  ASSERT_EQ(files[0].size(), files[1].size());
+  for (const auto& [name, text] : files[0]) EXPECT_TRUE(text == files[1][name]) << name;
+}
+
 TEST(Slope, SumOverPointsAsPrintedDoesNotComeToRestWherePointsAndMeshDoNotKeepStep) {
   // The reason for the corrected quadrature, kept as a test: eq. 4 as printed, the same slope.
   EXPECT_THROW(run_slope("printed", {"method.quadrature='points'", "stage.0.duration=6.0", "output.every=6.0"}),
