@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -25,10 +26,11 @@
 namespace scarp::input {
 namespace {
 
-/// toml++ 3.3.0 misreads non-ASCII letters outside strings and comments: finds the first.
-class AsciiCheck {
+/// Refuses what toml++ 3.3.0 does not survive: non-ASCII letters outside strings and comments, which it misreads, and
+/// keys of thousands of dotted parts, which it follows one call deeper each until the stack ends.
+class TextCheck {
  public:
-  AsciiCheck(const std::string& text, const std::string& name) : text_(text), name_(name) {}
+  TextCheck(const std::string& text, const std::string& name) : text_(text), name_(name) {}
 
   void run() {
     while (at_ < text_.size()) {
@@ -38,7 +40,14 @@ class AsciiCheck {
       } else if (c == '"' || c == '\'') {
         skip_string(c);
       } else {
-        if (static_cast<unsigned char>(c) > 127) refuse();
+        if (static_cast<unsigned char>(c) > 127) {
+          refuse("letters outside ASCII stand in quotes or comments only", "one here",
+                 "put the key or value in quotes, or use plain letters");
+        }
+        if (c == '.' && ++dots_ > most_dots) {
+          refuse("a key has few dotted parts", fmt::format("more than {}", most_dots), "shorten it");
+        }
+        if (c == '\n' || c == '=' || c == ',' || c == '[' || c == '{') dots_ = 0;
         step();
       }
     }
@@ -76,16 +85,16 @@ class AsciiCheck {
     }
   }
 
-  [[noreturn]] void refuse() const {
-    throw InputError("letters outside ASCII stand in quotes or comments only", "one here",
-                     "put the key or value in quotes, or use plain letters",
-                     {name_, line_, static_cast<int>(at_ - start_) + 1});
+  [[noreturn]] void refuse(const std::string& what, const std::string& value, const std::string& remedy) const {
+    throw InputError(what, value, remedy, {name_, line_, static_cast<int>(at_ - start_) + 1});
   }
+
+  static constexpr int most_dots = 50;
 
   const std::string& text_;
   const std::string& name_;
   std::size_t at_ = 0, start_ = 0;
-  int line_ = 1;
+  int line_ = 1, dots_ = 0;  ///< dots of the key under way
 };
 
 Position position_of(const toml::source_region& source, const std::string& name) {
@@ -123,7 +132,7 @@ Node converted(const toml::node& node, const std::string& name) {
 }  // namespace
 
 Node parse_text(const std::string& text, const std::string& name) {
-  AsciiCheck(text, name).run();
+  TextCheck(text, name).run();
   try {
     const toml::table table = toml::parse(text, name);
     return converted_table(table, name);
@@ -136,12 +145,14 @@ Node parse_text(const std::string& text, const std::string& name) {
 }
 
 Node parse_file(const std::string& path) {
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none))
+    throw InputError("the case file cannot be read", path, "that is a folder; name the file in it");
   std::ifstream file(path, std::ios::binary);
   if (!file) {
     throw InputError("the case file cannot be read", path, "check the name and that you may read it");
   }
   const std::string text(std::istreambuf_iterator<char>(file), {});
-  if (file.bad()) throw InputError("the case file cannot be read", path, "is it a folder?");
   return parse_text(text, path);
 }
 

@@ -48,6 +48,8 @@ void set_positions(Node& node, const Position& at) {
 
 /// The value of an override: as TOML, or else a bare word as text.
 Node parsed_value(const std::string& value, const Position& at) {
+  if (value.find('\n') != std::string::npos)
+    throw InputError("an override sets one value", "more than one line", "give --set once for each value", at);
   Node node;
   try {
     node = std::get<Keys>(parse_text("value = " + value, "").value).at("value");
