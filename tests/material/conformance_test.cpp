@@ -1,0 +1,232 @@
+// What every constitutive model must satisfy. A model that is added to AnyModel is tested here by being listed; it
+// brings constants and initial values to samples.hpp, or these tests fail.
+#include <gtest/gtest.h>
+#include <cmath>
+#include <cstring>
+#include <set>
+
+#include "lanes.hpp"
+#include "samples.hpp"
+#include "scarp/material/integrate/embedded.hpp"
+
+namespace scarp::test {
+namespace {
+
+template <class Variant>
+struct TypesOf;
+template <class... Models>
+struct TypesOf<std::variant<Models...>> {
+  using type = testing::Types<Models...>;
+};
+
+template <class M>
+class Conformance : public testing::Test {
+ public:
+  template <int N>
+  using State = typename M::template State<double, N>;
+
+  Conformance()
+      : sample_(sample(M::description().name)), model_(std::get<M>(made(M::description().name, sample_.constants))) {}
+
+  /// A state in compression that a few random increments have made general; in plane strain for N = 4 or `flat`.
+  template <int N>
+  State<N> general_state(unsigned seed, bool flat = false) {
+    std::mt19937 generator(seed);
+    Sym<double, N> sigma = Sym<double, N>::zero();
+    for (int i = 0; i < 4; ++i) sigma[i] = std::array<double, 4>{62, 100, 66, 9}[static_cast<std::size_t>(i)];
+    std::vector<Problem> problems;
+    auto s = model_.template initial_state<N>(sigma, 100, sample_.initial, problems);
+    EXPECT_TRUE(problems.empty());
+    for (int i = 0; i < 10; ++i) {
+      auto deps = increment<N>(generator, 2e-4, flat);
+      deps[1] += 3e-4;
+      EXPECT_EQ((integrate<DormandPrince>(model_, s, deps, {1e-8, 1e-7}).end), IntegrationEnd::done);
+    }
+    return s;
+  }
+
+  template <int N>
+  Sym<double, N> increment(std::mt19937& generator, double size, bool flat = false) {
+    auto deps = random_tensor<N>(generator, size);
+    if (flat)
+      for (int i = 4; i < N; ++i) deps[i] = 0;
+    return deps;
+  }
+
+  Sample sample_;
+  M model_;
+};
+
+using Models = TypesOf<AnyModel>::type;
+TYPED_TEST_SUITE(Conformance, Models);
+
+/// Every scalar of a state, sigma first.
+template <class State>
+std::vector<double> components(const State& s) {
+  std::vector<double> all;
+  for_each_component([&](const double& x) { all.push_back(x); }, s);
+  return all;
+}
+
+/// Size of a − b against the size of a, component by component of the same member.
+template <class State>
+double relative_difference(const State& a, const State& b) {
+  double worst = 0;
+  State::each(
+      [&](const auto& x, const auto& y) {
+        if constexpr (is_sym<std::decay_t<decltype(x)>>::value) {
+          worst = std::max(worst, norm(x - y) / (norm(x) + 1e-12));
+        } else {
+          worst = std::max(worst, std::abs(x - y) / (std::abs(x) + 1e-12));
+        }
+      },
+      a, b);
+  return worst;
+}
+
+TYPED_TEST(Conformance, DescribesItself) {
+  const auto d = TypeParam::description();
+  std::set<std::string> keys;
+  for (const auto& p : d.parameters) {
+    EXPECT_TRUE(keys.insert(p.key).second) << p.key << " twice";
+    EXPECT_FALSE(p.symbol.empty() || p.unit.empty() || p.meaning.empty()) << p.key;
+  }
+  std::size_t scalars = 6;
+  for (const auto& f : d.state) scalars += f.kind == FieldKind::tensor ? 6 : 1;
+  const auto s = this->template general_state<6>(1);
+  EXPECT_EQ(components(s).size(), scalars) << "description().state and State::each differ";
+  EXPECT_EQ(this->model_.derived(s).size(), d.derived.size());
+}
+
+TYPED_TEST(Conformance, ZeroIncrementChangesNothing) {
+  auto s = this->template general_state<6>(2);
+  const auto before = s;
+  const auto report = integrate<ModifiedEuler>(this->model_, s, Sym<double, 6>::zero(), {1e-4, 1e-7});
+  EXPECT_EQ(report.end, IntegrationEnd::done);
+  EXPECT_EQ(components(s), components(before));  // to the last bit
+  for (double x : components(this->model_.rate(s, Sym<double, 6>::zero()).change)) EXPECT_EQ(x, 0);
+}
+
+// A body with its state turned and strained in turned directions answers with the turned answer.
+template <int N, class Fixture>
+void expect_objective(Fixture& f, const Spin<double, N>& spin) {
+  std::mt19937 generator(3);
+  const Rotation<double, N> q(spin);
+  for (int i = 0; i < 20; ++i) {
+    auto s = f.template general_state<N>(static_cast<unsigned>(i));
+    const auto deps = f.template increment<N>(generator, 1e-4);
+    auto turned = s;
+    rotate(turned, q);
+    const auto a = attempt<ModifiedEuler>(f.model_, turned, q(deps), 1e-4).state;
+    auto b = attempt<ModifiedEuler>(f.model_, s, deps, 1e-4).state;
+    rotate(b, q);
+    EXPECT_LT(relative_difference(a, b), 1e-11);  // rounding of the rotation, amplified by the state's stiffness
+  }
+}
+
+TYPED_TEST(Conformance, Objectivity) {
+  expect_objective<4>(*this, {{0.7}});
+  expect_objective<6>(*this, {{0.7, -0.3, 1.1}});
+}
+
+TYPED_TEST(Conformance, FourComponentsAreSixInPlaneStrain) {
+  std::mt19937 generator(4);
+  for (int i = 0; i < 20; ++i) {
+    auto s4 = this->template general_state<4>(static_cast<unsigned>(i));
+    typename TypeParam::template State<double, 6> s6{};
+    TypeParam::template State<double, 6>::each(
+        [](auto& x, const auto& y) {
+          if constexpr (is_sym<std::decay_t<decltype(x)>>::value) {
+            for (int c = 0; c < 6; ++c) x[c] = c < 4 ? y[c] : 0.0;
+          } else {
+            x = y;
+          }
+        },
+        s6, s4);
+    const auto deps = this->template increment<4>(generator, 1e-4);
+    s4 = attempt<DormandPrince>(this->model_, s4, deps, 1e-4).state;
+    s6 = attempt<DormandPrince>(this->model_, s6, Sym<double, 6>{{deps[0], deps[1], deps[2], deps[3], 0, 0}}, 1e-4)
+             .state;
+    EXPECT_NEAR(s6.sigma[4], 0, 1e-14);
+    EXPECT_NEAR(s6.sigma[5], 0, 1e-14);
+    for (int c = 0; c < 4; ++c) EXPECT_NEAR(s4.sigma[c], s6.sigma[c], 1e-12 * norm(s4.sigma));
+  }
+}
+
+template <int N, class Fixture>
+void expect_batch_is_double(Fixture& f) {
+  using Model = decltype(f.model_);
+  std::mt19937 generator(5);
+  std::array<typename Model::template State<double, N>, batch_lanes> s;
+  std::array<Sym<double, N>, batch_lanes> deps;
+  typename Model::template State<Batch, N> many;
+  for (std::size_t i = 0; i < batch_lanes; ++i) {
+    s[i] = f.template general_state<N>(static_cast<unsigned>(i));
+    deps[i] = f.template increment<N>(generator, 1e-4);
+  }
+  std::size_t c = 0;
+  for_each_component(
+      [&](Batch& x) {
+        std::array<double, batch_lanes> values;
+        for (std::size_t i = 0; i < batch_lanes; ++i) values[i] = components(s[i])[c];
+        x = pack(values);
+        ++c;
+      },
+      many);
+  const auto trial = attempt<ModifiedEuler>(f.model_, many, pack<N>(deps), 1e-4);
+  const Batch modulus = f.model_.p_wave_modulus(many);
+  for (std::size_t i = 0; i < batch_lanes; ++i) {
+    const auto one = attempt<ModifiedEuler>(f.model_, s[i], deps[i], 1e-4);
+    auto out = one.state;
+    for_each_component([&](double& x, const Batch& b) { x = lane(b, i); }, out, trial.state);
+    EXPECT_LT(relative_difference(one.state, out), 1e-12);
+    EXPECT_NEAR(lane(trial.error, i), one.error, 1e-10 * one.error + 1e-15);
+    EXPECT_EQ(trial.notes.sound.get(i), one.notes.sound);
+    EXPECT_NEAR(lane(modulus, i) / f.model_.p_wave_modulus(s[i]), 1, 1e-14);
+  }
+}
+
+TYPED_TEST(Conformance, BatchGivesWhatDoubleGives) {
+  expect_batch_is_double<4>(*this);
+  expect_batch_is_double<6>(*this);
+}
+
+// An explicit step's critical time rests on this: unloading along an axis meets K + 4G/3.
+TYPED_TEST(Conformance, WaveModulusIsTheStiffnessOfUnloading) {
+  const auto s = this->template general_state<6>(6);
+  const double h = 1e-9;
+  auto unloaded = s;
+  const auto report =
+      integrate<DormandPrince>(this->model_, unloaded, Sym<double, 6>{{0, -h, 0, 0, 0, 0}}, {1e-10, 1e-7});
+  ASSERT_EQ(report.end, IntegrationEnd::done);
+  const double tangent = (s.sigma[1] - unloaded.sigma[1]) / h;
+  EXPECT_NEAR(this->model_.p_wave_modulus(s) / tangent, 1, 1e-5);  // cancellation: 1e-16 of σ over h times the modulus
+}
+
+// Rate independence: the change of state is of degree one in the increment.
+TYPED_TEST(Conformance, RateIsHomogeneousOfDegreeOne) {
+  std::mt19937 generator(7);
+  const auto s = this->template general_state<6>(7);
+  for (int i = 0; i < 20; ++i) {
+    const auto deps = this->template increment<6>(generator, 1e-4);
+    const auto one = components(this->model_.rate(s, deps).change),
+               three = components(this->model_.rate(s, 3.0 * deps).change);
+    for (std::size_t c = 0; c < one.size(); ++c) EXPECT_NEAR(three[c], 3 * one[c], 1e-12 * std::abs(three[c]));
+  }
+}
+
+// Small increments join up with the rate: the integrator and the law mean the same thing.
+TYPED_TEST(Conformance, IncrementsOfHalfTheSizeAgree) {
+  std::mt19937 generator(8);
+  for (int i = 0; i < 20; ++i) {
+    auto whole = this->template general_state<6>(static_cast<unsigned>(i));
+    auto halves = whole;
+    const auto deps = this->template increment<6>(generator, 1e-3);
+    integrate<DormandPrince>(this->model_, whole, deps, {1e-8, 1e-9});
+    for (int k = 0; k < 2; ++k) integrate<DormandPrince>(this->model_, halves, 0.5 * deps, {1e-8, 1e-9});
+    EXPECT_LT(norm(whole.sigma - halves.sigma), 1e-6 * norm(whole.sigma));  // 1e-8 for each of some ten substeps
+  }
+}
+
+}  // namespace
+}  // namespace scarp::test
