@@ -75,7 +75,7 @@ struct StageInput {
   double duration = 0;             ///< [s]
   double damping = 0;              ///< local (non-viscous) damping coefficient, 0 to below 1
   std::optional<double> flip;      ///< overrides MethodInput::flip
-  bool zero_displacement = false;  ///< set displacements and strains to zero at the start
+  bool zero_displacement = false;  ///< set displacements and eps_q to zero at the start
   bool zero_velocity = false;      ///< set velocities to zero at the start
   std::optional<RemovalInput> remove;
   std::optional<RestInput> rest;

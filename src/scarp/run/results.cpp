@@ -118,6 +118,7 @@ struct Results::Writers {
   io::PvdWriter collection;
   io::HistoryWriter history;
   int frames = 0;
+  double last_frame = -1, last_row = -1;  ///< times; what falls due at the end of a stage is written once
 };
 
 Results::Results(const input::Case& input, const std::string& folder, const Body<2>& body)
@@ -135,12 +136,16 @@ Results::Results(const input::Case& input, const std::string& folder, const Body
 Results::~Results() = default;
 
 void Results::frame(const Body<2>& body, double time) {
+  if (time == writers_->last_frame) return;
+  writers_->last_frame = time;
   const auto name = frame_name(writers_->frames++);
   io::write_points_vtu(folder_ + "/" + name, frame_positions(body), frame_fields(body));
   writers_->collection.add(time, name);
 }
 
 void Results::history(int stage, int points, const Ledger& l) {
+  if (l.time == writers_->last_row) return;
+  writers_->last_row = l.time;
   const auto& stress = l.last.stress;
   const std::vector<double> row = {l.time,
                                    l.dt,

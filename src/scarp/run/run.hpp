@@ -16,10 +16,10 @@ struct Options {
 };
 
 /// Runs the case and writes points.pvd with its frames, mesh.vtu, history.csv, summary.json and a copy of the case into
-/// the folder. An earlier result in the folder is replaced once the case has been found good; a folder with other
-/// things in it is refused. SIGINT and SIGTERM end the run after the step under way, with everything written up to
-/// there. Throws InputError for a bad case and RunError for a computation that cannot go on (its last state is written
-/// first).
+/// the folder. An earlier result in the folder is replaced once the case has been found good; files of
+/// other origin with the same names are refused. SIGINT and SIGTERM end the run after the step under way, with
+/// everything written up to there. Throws InputError for a bad case and RunError for a computation that cannot go on
+/// (its last state is written first).
 Outcome run_case(const input::Case& input, const Options& options);
 
 /// Builds mesh, points and initial state, and describes them: what `scarp check` prints.
