@@ -106,6 +106,11 @@ Body<2> build_body(const input::Case& input) {
   std::vector<Filling> fillings;
   std::vector<Overburden::Layer> layers;
   for (const auto& region : input.regions) {
+    const double count = moments(region.polygon).area / (region.spacing * region.spacing);
+    if (!(count < 2e8)) {
+      throw InputError(fmt::format("region \"{}\" has too many points", region.name),
+                       fmt::format("about {:.3g}", count), "enlarge its spacing", region.position);
+    }
     fillings.push_back(fill(region.polygon, region.spacing));
     layers.push_back({region.polygon, input.materials[region.material].density});
   }
@@ -121,7 +126,15 @@ Body<2> build_body(const input::Case& input) {
   for (std::size_t r = 0; r < input.regions.size(); ++r) {
     set_initial_state(body.blocks[r], input.regions[r], overburden);
   }
-  locate_points(body);
+  try {
+    locate_points(body);
+  } catch (const InputError& error) {
+    for (const auto& region : input.regions) {
+      if (error.problem().find('"' + region.name + '"') == std::string::npos) continue;
+      throw InputError(error.problem(), error.value(), error.remedy(), region.position);
+    }
+    throw;
+  }
   return body;
 }
 

@@ -123,11 +123,13 @@ struct Results::Writers {
 
 Results::Results(const input::Case& input, const std::string& folder, const Body<2>& body)
     : input_(input), folder_(folder) {
+  // Read before the folder is cleared: the case may be the copy that an earlier run left in it.
+  std::ifstream source(input.path, std::ios::binary);
+  const std::string case_text(std::istreambuf_iterator<char>(source), {});
   prepare(folder);
   // The marker of a folder of results comes first.
   io::write_whole(folder_ + "/summary.json", "{\"status\": \"running\"}\n");
-  std::ifstream source(input.path, std::ios::binary);
-  io::write_whole(folder_ + "/case.toml", std::string(std::istreambuf_iterator<char>(source), {}));
+  io::write_whole(folder_ + "/case.toml", case_text);
   io::write_mesh_vtu(folder_ + "/mesh.vtu", *body.mesh);
   writers_ = std::make_unique<Writers>(io::PvdWriter(folder_ + "/points.pvd"),
                                        io::HistoryWriter(folder_ + "/history.csv", history_columns));

@@ -1,0 +1,204 @@
+"""The built program seen from outside: exit statuses and messages. Usage: program_test.py PROGRAM [TEST ...]
+
+Oracles: what README and run.hpp promise; the place of the damage in the text of a case.
+"""
+
+import json
+import os
+
+import cases
+from cases import COLUMN, SLOPE, ProgramTest, contents, frame_times, place, read, replaced
+
+
+class Commands(ProgramTest):
+    def test_check_describes_the_case(self):
+        self.write("column.toml", COLUMN)
+        text = self.scarp("check", "column.toml").stdout
+        # 1 m x 4 m in elements of 0.5 m; 1 m x 3 m of soil in squares of 0.25 m, in 12 elements; 3 m2 of 2 Mg/m3.
+        for part in ("column.toml: a column", "16 elements, 27 nodes", "48 points, area 3 m2, mass 6", 'stage "settle"',
+                     "48 in 12 elements"):
+            self.assertIn(part, text)
+        self.assertEqual(os.listdir(self.folder), ["column.toml"])
+
+    def test_check_takes_overrides(self):
+        self.write("column.toml", COLUMN)
+        text = self.scarp("check", "column.toml", "--set", "region.column.spacing=0.5", "--set", "title=other").stdout
+        self.assertIn("12 points", text)
+        self.assertIn("column.toml: other", text)
+        self.refused("check", "column.toml", "--set", "region.column.spacng=0.5",
+                     parts=["--set region.column.spacng=0.5: ", "no key spacng", "did you mean spacing?"])
+
+    def test_models(self):
+        text = self.scarp("models").stdout
+        self.assertIn("linear-elastic", text)
+        self.assertIn("subloading", text)
+
+    def test_one_model(self):
+        text = self.scarp("models", "subloading").stdout
+        lines = {line.split()[0]: line for line in text.splitlines() if line.startswith("  ")}
+        for key in ("kappa", "lambda", "nu", "M_c", "c_b", "p_atm", "R_b", "OCR", "beta", "p_c"):
+            self.assertIn(key, lines)
+        self.assertIn("required", lines["kappa"])
+        self.assertIn("Poisson's ratio", lines["nu"])
+
+    def test_no_such_model(self):
+        self.refused("models", "nosuch", parts=["there is no such model", '"nosuch"', "linear-elastic, subloading"])
+
+    def test_help_and_version(self):
+        text = self.scarp("--help").stdout
+        for command in ("run", "check", "models", "plot"):
+            self.assertIn(command, text)
+        self.assertIn("--threads", self.scarp("run", "--help").stdout)
+        self.assertIn("--panels", self.scarp("plot", "--help").stdout)
+        self.assertRegex(self.scarp("--version").stdout, r"^scarp \d+\.\d+\.\d+\n$")
+
+    def test_wrong_command_lines(self):
+        self.write("column.toml", COLUMN)
+        for words in ([], ["walk"], ["run"], ["check"], ["plot"], ["run", "column.toml", "--thread", "1"],
+                      ["run", "column.toml", "--threads", "0"], ["run", "column.toml", "--threads", "two"],
+                      ["run", "column.toml", "other.toml"], ["check", "column.toml", "--set"]):
+            with self.subTest(words=words):
+                self.assertGreater(len(self.scarp(*words, status=2).stderr), 10)
+        self.assertEqual(os.listdir(self.folder), ["column.toml"])
+
+
+class BadInput(ProgramTest):
+    """Exit status 2, a message with place, value and remedy; results of an earlier run stay as they are."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("column.toml", COLUMN)
+        self.scarp("run", "column.toml", "--quiet", "--out", "r")
+        self.before = contents(self.path("r"))
+
+    def refuse(self, text, *parts, options=()):
+        self.write("bad.toml", text)
+        for command in (["check"], ["run", "--quiet", "--out", "r"]):
+            with self.subTest(command=command[0]):
+                self.refused(*command, "bad.toml", *options, parts=parts)
+                self.expect_same(self.before, contents(self.path("r")))
+                self.assertEqual(sorted(os.listdir(self.folder)), self.files())
+
+    def files(self):
+        mesh = ["mesh.msh"] if os.path.exists(self.path("mesh.msh")) else []
+        return ["bad.toml", "column.toml", *mesh, "r"]
+
+    def test_values(self):
+        for old, new, mark, *parts in [
+            ("E = 1e4", "E = -1e4", "E = -1e4", "E must satisfy 0 < E", "found -10000", "Young's modulus"),
+            ("spacing = 0.25", "spacng = 0.25", "[[region]]", "lacks the key spacing", "add the distance"),
+            ("damping = 0.5", "dampng = 0.5", "dampng", "no key dampng", "found the number 0.5",
+             "did you mean damping?"),
+            ('material = "ground"', 'material = "sand"', 'material = "sand"', "no such material", '"sand"', '"ground"'),
+            ("duration = 0.2", "duration = nan", "duration", "duration is finite", "found nan", "a finite number"),
+            ("[1.0, 3.0], [0.0, 3.0]", "[0.0, 3.0], [1.0, 3.0]", "[1.0, 3.0]", "cross or touch", "in order around"),
+            ('title = "a column"', 'title = "a column', "title", "not TOML", "toml.io"),
+        ]:
+            with self.subTest(new=new):
+                text = replaced(COLUMN, old, new)
+                # Of the parser's own messages the line is ours to know, the column not.
+                where = place(text, mark)
+                where = where.split(":")[0] if "not TOML" in parts else where
+                self.refuse(text, f"bad.toml:{where}:", *parts)
+
+    def test_what_shows_only_with_mesh_and_points(self):
+        high = replaced(COLUMN, "size = [1.0, 4.0]", "size = [1.0, 2.0]")
+        self.refuse(high, f"bad.toml:{place(high, '[[region]]')}:", "does not hold the soil", '"column"',
+                    "a point at (")
+        walls = replaced(COLUMN, 'nodes = "left"', 'nodes = "west"')
+        self.refuse(walls, f"bad.toml:{place(walls, '[[boundary]]' + chr(10) + 'nodes = ' + chr(34) + 'west')}:",
+                    "no such node set", '"west"', '"left"')
+        line = replaced(COLUMN, 'nodes = "left"', "line = [[0.1, 0.0], [0.1, 4.0]]")
+        self.refuse(line, f"bad.toml:{place(line, '[[boundary]]' + chr(10) + 'line')}:", "no node", "(0.1, 0)", "edges")
+        twice = COLUMN + '[[region]]\nname = "other"\nmaterial = "ground"\nspacing = 0.25\nK0 = 1.0\n' \
+            "polygon = [[0.0, 2.0], [1.0, 2.0], [1.0, 4.0], [0.0, 4.0]]\n"
+        self.refuse(twice, 'regions "other" and "column" overlap', "share no more than their edges")
+        clay = SLOPE.replace("OCR = 1.3", "OCR = 0.5")
+        self.refuse(clay, f"bad.toml:{place(clay, '[[region]]')}:", "OCR >= 1", "found 0.5")
+
+    def test_regions_that_points_cannot_fill(self):
+        # Points so many that no machine holds them, and so many that their number overflows.
+        for spacing in ("1e-7", "1e-300"):
+            with self.subTest(spacing=spacing):
+                text = replaced(COLUMN, "spacing = 0.25", f"spacing = {spacing}")
+                self.refuse(text, "bad.toml:", "points")
+
+    def test_meshes(self):
+        with_file = replaced(COLUMN, "grid = { size = [1.0, 4.0], element = 0.5 }", 'file = "mesh.msh"')
+        self.refuse(with_file, f"bad.toml:{place(with_file, 'file =')}:", "the mesh file is not there", "mesh.msh")
+        mesh = ("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 4 0\n4 0 4 0\n$EndNodes\n"
+                "$Elements\n1\n1 3 2 0 1 1 2 3 4\n$EndElements\n")
+        for cut in (0, 10, mesh.index("3 1 4 0"), mesh.index("$Elements"), mesh.index("1 3 2") + 9):
+            with self.subTest(cut=cut):
+                self.write("mesh.msh", mesh[:cut])
+                self.refuse(with_file, "mesh.msh:")
+        self.write("mesh.msh", bytes(range(256)) * 8)
+        self.refuse(with_file, "mesh.msh:")
+        self.write("mesh.msh", mesh.replace("3 1 4 0", "3 1 2 0").replace("4 0 4 0", "4 0 2 0"))
+        self.refuse(with_file, "does not hold the soil")
+        self.write("mesh.msh", mesh)  # whole, it serves
+        self.write("good.toml", with_file)
+        self.assertIn("1 elements, 4 nodes", self.scarp("check", "good.toml").stdout)
+
+    def test_files_that_cannot_be_read(self):
+        for name in ("nosuch.toml", "r"):
+            with self.subTest(name=name):
+                self.refused("run", name, "--quiet", "--out", "r", parts=["cannot be read", name])
+        self.expect_same(self.before, contents(self.path("r")))
+
+    def test_folders_that_are_not_ours(self):
+        self.refused("run", "column.toml", "--quiet", "--out", "column.toml", parts=["but a file has that name"])
+        os.mkdir(self.path("theirs"))
+        self.write("theirs/history.csv", "1,2,3\n")
+        self.refused("run", "column.toml", "--quiet", "--out", "theirs", parts=["no summary.json of an earlier run"])
+        self.assertEqual(contents(self.path("theirs")), {"history.csv": b"1,2,3\n"})
+        self.assertEqual(read(self.path("column.toml")), COLUMN.encode())
+
+
+class Failures(ProgramTest):
+    """Exit status 3: the message says what, where and what to do; what there is up to there stays for a look."""
+
+    def expect_failure(self, text, *parts):
+        self.write("fails.toml", text)
+        self.refused("run", "fails.toml", "--quiet", "--out", "r", status=3, parts=parts)
+        summary = json.loads(read(self.path("r", "summary.json")))
+        self.assertEqual(summary["status"], "failed")
+        for part in parts:
+            self.assertIn(part, summary["message"])
+        self.assertIn("remedy", summary["message"])
+        listed = read(self.path("r", "points.pvd")).decode()
+        self.assertAlmostEqual(frame_times(listed)[-1], summary["time"], delta=1e-12)
+        return summary
+
+    def test_ground_that_does_not_come_to_rest(self):
+        # Undamped, the column keeps swinging about the state that K0 off by far leaves to find.
+        text = replaced(COLUMN, "K0 = 0.333333333333333333", "K0 = 0.9")
+        text = replaced(text, "damping = 0.5", "rest = { unbalanced = 1e-9 }")
+        text = replaced(text, "nodes = \"right\"", "nodes = \"top\"")  # free on its right
+        summary = self.expect_failure(text, 'does not come to rest in stage "settle" within 0.2 s',
+                                      "unbalanced force ratio", "asked: 1e-09")
+        self.assertEqual(summary["stages"][0]["ended"], "duration")
+        self.assertAlmostEqual(summary["stages"][0]["end"], 0.2, delta=1e-12)
+
+    def test_the_same_where_rest_is_not_required(self):
+        text = replaced(COLUMN, "damping = 0.5", "rest = { unbalanced = 1e-300, required = false }")
+        self.write("fine.toml", text)
+        self.scarp("run", "fine.toml", "--quiet")
+
+    def test_a_removal_that_leaves_nothing(self):
+        polygon = "[[-1.0, -1.0], [2.0, -1.0], [2.0, 5.0], [-1.0, 5.0]]"
+        self.expect_failure(replaced(COLUMN, "damping = 0.5", f"remove = {{ polygon = {polygon} }}"), "leaves no soil")
+
+    def test_a_point_that_leaves_the_mesh(self):
+        # Nothing carries the column: it falls through the bottom after 0.2 s at the latest.
+        text = replaced(COLUMN, 'nodes = "bottom"\nfix = ["x", "y"]', 'nodes = "bottom"\nfix = ["x"]')
+        text = replaced(text, "duration = 0.2", "duration = 1.0")
+        self.expect_failure(text, "leaving")
+        self.scarp("run", "fails.toml", "--quiet", "--out", "r", "--set", "method.leaving=remove", "--set",
+                   "stage.settle.duration=0.4")
+        summary = json.loads(read(self.path("r", "summary.json")))
+        self.assertGreater(summary["removed_points"], 0)
+
+
+if __name__ == "__main__":
+    cases.main()
