@@ -55,9 +55,9 @@ class Sweep {
   using State = typename Model::template State<T, N>;
 
  public:
-  Sweep(const Model& model, Block<Dim>& block, const std::vector<double>& element_size,
+  Sweep(const Model& model, Block<Dim>& block, double dt, const std::vector<double>& element_size,
         const IntegrationSettings& settings)
-      : model_(model), block_(block), points_(block.points), size_(element_size), settings_(settings) {}
+      : model_(model), block_(block), points_(block.points), dt_(dt), size_(element_size), settings_(settings) {}
 
   StressBooks operator()(int first, int last) {
     StressBooks books;
@@ -75,7 +75,8 @@ class Sweep {
     State<Batch> turned = old;
     rotate(turned, Rotation<Batch, N>(spin));
 
-    const auto trial = attempt<ModifiedEuler>(model_, turned, deps, settings_.tolerance);
+    const auto trial =
+        attempt<ModifiedEuler>(model_, turned, Increment<Batch, N>{deps, Batch(dt_)}, settings_.tolerance);
     const auto good = trial.notes.sound && (trial.error <= Batch(settings_.tolerance));
     store_state(select_state(good, trial.state, old), i, count);
 
@@ -110,7 +111,7 @@ class Sweep {
     for (std::size_t c = 0; c < spin.w.size(); ++c) spin.w[c] = points_.spin[c][p];
     rotate(s, Rotation<double, N>(spin));
     const Sym<double, N> before = s.sigma;
-    const auto report = integrate<ModifiedEuler>(model_, s, deps, settings_, 0.5);
+    const auto report = integrate<ModifiedEuler>(model_, s, Increment<double, N>{deps, dt_}, settings_, 0.5);
     store_state(s, p);
     books.work += points_.weight[p] * points_.volume[p] * (1 + 0.5 * trace(deps)) * 0.5 * dot(before + s.sigma, deps);
     record(p, report.substeps, report.notes, report.end, books);
@@ -186,6 +187,7 @@ class Sweep {
   const Model& model_;
   Block<Dim>& block_;
   Points<Dim>& points_;
+  double dt_;
   const std::vector<double>& size_;
   IntegrationSettings settings_;
 };
@@ -210,11 +212,11 @@ StressBooks& StressBooks::operator+=(const StressBooks& other) {
 }
 
 template <int Dim>
-StressBooks update_stresses(Block<Dim>& block, const std::vector<double>& element_size,
+StressBooks update_stresses(Block<Dim>& block, double dt, const std::vector<double>& element_size,
                             const IntegrationSettings& settings) {
   return std::visit(
       [&]<class Model>(const Model& model) {
-        Sweep<Model, Dim> sweep(model, block, element_size, settings);
+        Sweep<Model, Dim> sweep(model, block, dt, element_size, settings);
         return sum_over_chunks<StressBooks>(block.size(), chunk_points,
                                             [&](int first, int last) { return sweep(first, last); });
       },
@@ -232,7 +234,7 @@ double critical_time_step(const Block<Dim>& block, const std::vector<double>& el
   return dt;
 }
 
-template StressBooks update_stresses<2>(Block<2>&, const std::vector<double>&, const IntegrationSettings&);
+template StressBooks update_stresses<2>(Block<2>&, double, const std::vector<double>&, const IntegrationSettings&);
 template double critical_time_step<2>(const Block<2>&, const std::vector<double>&);
 
 }  // namespace scarp::exec

@@ -25,10 +25,10 @@ struct StressBooks {
   StressBooks& operator+=(const StressBooks& other);
 };
 
-/// Updates stress, state, strain measures and flags of all points from their deps and spin. `element_size` is the
-/// mesh's, for the critical time step.
+/// Updates stress, state, strain measures and flags of all points from their deps and spin over the time dt.
+/// `element_size` is the mesh's, for the critical time step.
 template <int Dim>
-StressBooks update_stresses(Block<Dim>& block, const std::vector<double>& element_size,
+StressBooks update_stresses(Block<Dim>& block, double dt, const std::vector<double>& element_size,
                             const IntegrationSettings& settings);
 
 /// The least h / (c + |v|) over the points of a block, with c the compression wave speed of their present stiffness;

@@ -5,7 +5,11 @@
 //                         a member of every state, sigma first: arithmetic, rotation, storage and output follow it
 //   description()         keys, symbols, units, bounds, meanings; state fields in the order of each()
 //   from_values(...)      constants from the input keys
-//   rate(s, deps)         the change of the state for a strain increment, to first order: d(state) = F(state) deps
+//   rate(s, deps)         the change of the state for a strain increment, to first order: d(state) = F(state) deps; or
+//   rate(s, deps, dt)     the same for a law that depends on time; or
+//   update(s, increment, tolerance)  a one-step integration of the law's own (a return to the yield surface), in place
+//                         of rate(): answers what attempt() of integrate/embedded.hpp does, with an error estimate that
+//                         falls as the square of the increment, 0 where it is exact
 //   admissible(s)         may a law be evaluated here?
 //   error_norm(s, e)      size of a state error e relative to s
 //   accept(s, tol)        corrections to the end of an increment, whether it is admissible, and what to count
@@ -37,6 +41,14 @@ struct Notes {
   Mask<T> on_floor;   ///< a hardening variable stands at its floor
   Mask<T> separated;  ///< no tensile strength left: stress set to zero
   Mask<T> sound;      ///< the state is admissible
+};
+
+/// One trial over the whole of an increment.
+template <class State, class T>
+struct Trial {
+  State state;
+  T error;         ///< relative, in the model's norm
+  Notes<T> notes;  ///< `sound` there: every stage and the end admissible, and the law solvable
 };
 
 template <class T>

@@ -2,36 +2,10 @@
 
 #include <fmt/format.h>
 #include <cmath>
-#include <optional>
+
+#include "scarp/material/initial_values.hpp"
 
 namespace scarp {
-namespace {
-
-std::optional<double> number(const Values& keys, const std::string& key, std::vector<Problem>& problems) {
-  const auto found = keys.find(key);
-  if (found == keys.end()) return {};
-  if (const auto* value = std::get_if<double>(&found->second)) return *value;
-  problems.push_back({key, fmt::format("the initial value {} is a number", key), "another type", "write a number"});
-  return {};
-}
-
-/// Six tensor components xx, yy, zz, xy, yz, zx (or four, of plane strain) as a Sym, or a problem.
-template <int N>
-std::optional<Sym<double, N>> tensor(const std::string& key, const std::vector<double>& list,
-                                     std::vector<Problem>& problems) {
-  const bool six = list.size() == 6, out_of_plane = N == 4 && six && (list[4] != 0 || list[5] != 0);
-  if ((!six && list.size() != 4) || (N == 6 && !six) || out_of_plane) {
-    problems.push_back({key, fmt::format("{} takes the 6 components xx, yy, zz, xy, yz, zx", key),
-                        out_of_plane ? "yz or zx not zero in plane strain" : fmt::format("{} numbers", list.size()),
-                        "write the tensor components (not multiplied by 2); yz and zx are 0 in plane strain"});
-    return {};
-  }
-  std::array<double, N> t{};
-  for (std::size_t i = 0; i < N; ++i) t[i] = list[i];
-  return to_mandel<N>(t);
-}
-
-}  // namespace
 
 Subloading::Subloading(const Parameters& p)
     : c_(p), g2_(3.0 * (1.0 - 2.0 * p.nu) / (1.0 + p.nu)), floor_(p.p_c_floor * p.p_atm) {}
@@ -140,7 +114,7 @@ Subloading::State<double, N> Subloading::initial_state(const Sym<double, N>& sig
     if (!holds) problems.push_back({key, what, fmt::format("{:.6g}", value), remedy});
   };
 
-  const auto R_b = number(keys, "R_b", problems);
+  const auto R_b = initial::number(keys, "R_b", problems);
   if (R_b) s.R_b = *R_b;
   if (!keys.contains("R_b"))
     problems.push_back(
@@ -151,7 +125,7 @@ Subloading::State<double, N> Subloading::initial_state(const Sym<double, N>& sig
   if (const auto found = keys.find("beta"); found != keys.end()) {
     const auto* word = std::get_if<std::string>(&found->second);
     if (const auto* list = std::get_if<std::vector<double>>(&found->second)) {
-      if (const auto t = tensor<N>("beta", *list, problems)) s.beta = *t;
+      if (const auto t = initial::tensor<N>("beta", *list, problems)) s.beta = *t;
       demand(std::abs(trace(s.beta)) <= 1e-9 * (1.0 + norm(s.beta)), "beta", "beta is deviatoric: xx + yy + zz = 0",
              trace(s.beta), "subtract the mean");
     } else if (word && *word == "K0") {
@@ -171,15 +145,15 @@ Subloading::State<double, N> Subloading::initial_state(const Sym<double, N>& sig
              "a typical value is 0.5");
       s.a = *share * sigma;
     } else if (const auto* list = std::get_if<std::vector<double>>(&found->second)) {
-      if (const auto t = tensor<N>("a", *list, problems)) s.a = *t;
+      if (const auto t = initial::tensor<N>("a", *list, problems)) s.a = *t;
     } else {
       problems.push_back(
           {"a", "a is a share of the initial stress or 6 numbers", "a word", "write a = 0.5, for instance"});
     }
   }
 
-  const auto ocr = number(keys, "OCR", problems), pop = number(keys, "POP", problems),
-             pc = number(keys, "p_c", problems), R = number(keys, "R", problems);
+  const auto ocr = initial::number(keys, "OCR", problems), pop = initial::number(keys, "POP", problems),
+             pc = initial::number(keys, "p_c", problems), R = initial::number(keys, "R", problems);
   const double through = p_c_through(sigma, s.beta);
   if (ocr) {
     demand(*ocr >= 1, "OCR", "OCR >= 1", *ocr, "1 is normally consolidated");

@@ -296,7 +296,7 @@ StepBooks<2> advance<2>(Body<2>& body, double dt, const StepSettings& settings) 
   velocities_of_nodes(body, dt, books);               // step 5, eq. 8
   strain_and_move(body, dt, books);                   // steps 6, 8, 9 and 10, eqs 9–11 and 14–19
   for (auto& block : body.blocks) {                   // step 7, eqs 12, 13 and section 3
-    books.stress += exec::update_stresses(block, body.mesh->size, settings.integration);
+    books.stress += exec::update_stresses(block, dt, body.mesh->size, settings.integration);
   }
   books.work_stress = books.stress.work;
   find_new_elements(body, settings, books);  // step 11

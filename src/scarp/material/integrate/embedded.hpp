@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "scarp/material/increment.hpp"
 #include "scarp/material/state.hpp"
 
 namespace scarp {
@@ -37,18 +38,13 @@ struct DormandPrince {
                                            -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
 };
 
-/// One trial of a pair over the whole of `deps`.
-template <class State, class T>
-struct Trial {
-  State state;
-  T error;         ///< relative, in the model's norm
-  Notes<T> notes;  ///< `sound` there: every stage and the end admissible, and the law solvable
-};
-
-template <class Pair, class Model, class State, class T, int N>
-inline Trial<State, T> attempt(const Model& model, const State& s, const Sym<T, N>& deps, double tolerance) {
+/// One step of a pair. `Step` is an Increment, or whatever a law is driven by that has rate_of(), is_idle() and a
+/// product with a number.
+template <class Pair, class Model, class State, class Step>
+inline auto attempt_pair(const Model& model, const State& s, const Step& step, double tolerance) {
+  using T = decltype(model.error_norm(s, s));
   std::array<State, Pair::stages> k;
-  auto first = model.rate(s, deps);
+  auto first = rate_of(model, s, step);
   k[0] = first.change;
   Mask<T> sound = first.sound;
   for (std::size_t i = 1; i < Pair::stages; ++i) {
@@ -56,7 +52,7 @@ inline Trial<State, T> attempt(const Model& model, const State& s, const Sym<T, 
     for (std::size_t j = 0; j < i; ++j) {
       if (Pair::a[i][j] != 0) stage = advanced(stage, T(Pair::a[i][j]), k[j]);
     }
-    auto at = model.rate(stage, deps);
+    auto at = rate_of(model, stage, step);
     k[i] = at.change;
     sound = sound && at.sound;
   }
@@ -71,6 +67,17 @@ inline Trial<State, T> attempt(const Model& model, const State& s, const Sym<T, 
   trial.notes = model.accept(trial.state, tolerance);
   trial.notes.sound = trial.notes.sound && sound;
   return trial;
+}
+
+/// The whole increment (a strain, or an Increment) at once: by the law's own update where it has one, else by the pair.
+template <class Pair, class Model, class State, class Step>
+inline auto attempt(const Model& model, const State& s, const Step& increment, double tolerance) {
+  const auto step = as_increment(increment);
+  if constexpr (requires { updated(model, s, step, tolerance); }) {
+    return updated(model, s, step, tolerance);
+  } else {
+    return attempt_pair<Pair>(model, s, step, tolerance);
+  }
 }
 
 struct IntegrationSettings {
@@ -88,32 +95,50 @@ struct IntegrationReport {
   Notes<double> notes{};
 };
 
-/// Integrates `state` over `deps` (compression positive), substep by substep. When an error below the tolerance needs
-/// less than the smallest substep, `state` is left at the last accepted one and the report says how far it came.
-/// `start` is the first substep to try, as a share of the increment.
-template <class Pair, class Model, class State, int N>
-IntegrationReport integrate(const Model& model, State& state, const Sym<double, N>& deps,
+/// Why the state cannot take even `part`.
+template <class Model, class State, class Step>
+IntegrationEnd failure(const Model& model, const State& state, const Step& part, double tolerance) {
+  if (!model.admissible(state)) return IntegrationEnd::inadmissible;
+  bool solvable;
+  if constexpr (requires { updated(model, state, part, tolerance); }) {
+    solvable = updated(model, state, part, tolerance).notes.sound;
+  } else {
+    solvable = rate_of(model, state, part).sound;
+  }
+  return solvable ? IntegrationEnd::not_converged : IntegrationEnd::unstable;
+}
+
+/// Integrates `state` over an increment (a strain, compression positive, or an Increment), substep by substep. When an
+/// error below the tolerance needs less than the smallest substep, `state` is left at the last accepted one and the
+/// report says how far it came. `start` is the first substep to try, as a share of the increment.
+template <class Pair, class Model, class State, class Step>
+IntegrationReport integrate(const Model& model, State& state, const Step& increment,
                             const IntegrationSettings& settings, double start = 1.0) {
   IntegrationReport report;
-  if (dot(deps, deps) == 0.0) {
+  const auto whole = as_increment(increment);
+  if (is_idle(model, whole)) {
     report.reached = 1;
     report.substeps = 1;
-    State same = state;  // a point that does not strain keeps its state to the last bit
+    State same = state;  // a point to which nothing happens keeps its state to the last bit
     report.notes = model.accept(same, settings.tolerance);
     return report;
   }
+  constexpr bool own_update = requires {
+    updated(model, state, whole, 1e-4);
+  };
+  constexpr double order = own_update ? 2 : Pair::order;
   double step = start, t = 0;
   bool grew_possible = true;
   while (t < 1.0) {
     step = std::min(step, 1.0 - t);
     // A remainder of round-off size would be a substep of its own.
     if (1.0 - t - step < 1e-12) step = 1.0 - t;
-    const auto part = step * deps;
+    const auto part = step * whole;
     const auto trial = attempt<Pair>(model, state, part, settings.tolerance);
     const bool sound = trial.notes.sound;
     const bool good = sound && trial.error <= settings.tolerance;  // a NaN error is not good
     const double ratio = settings.tolerance / std::max(trial.error, 1e-16 * settings.tolerance);
-    double factor = std::isfinite(trial.error) ? 0.9 * std::pow(ratio, 1.0 / Pair::order) : 0.1;
+    double factor = std::isfinite(trial.error) ? 0.9 * std::pow(ratio, 1.0 / order) : 0.1;
     if (good) {
       state = trial.state;
       const bool corrected = report.notes.corrected || trial.notes.corrected;
@@ -128,9 +153,7 @@ IntegrationReport integrate(const Model& model, State& state, const Sym<double, 
       grew_possible = false;
       step *= sound ? std::clamp(factor, 0.1, 0.9) : 0.25;
       if (step < settings.smallest_substep) {
-        report.end = !model.admissible(state)         ? IntegrationEnd::inadmissible
-                     : !model.rate(state, part).sound ? IntegrationEnd::unstable
-                                                      : IntegrationEnd::not_converged;
+        report.end = failure(model, state, part, settings.tolerance);
         report.reached = t;
         return report;
       }
