@@ -5,6 +5,8 @@ target_compile_features(scarp_options INTERFACE cxx_std_20)
 target_compile_definitions(scarp_options INTERFACE SCARP_VERSION="${PROJECT_VERSION}")
 target_include_directories(scarp_options INTERFACE ${PROJECT_SOURCE_DIR}/src)
 target_compile_options(scarp_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+# Eigen serves small dense algebra in set-up and laboratory; g++ 12 warns of its AVX-512 code for 6 × 6 matrices.
+target_compile_definitions(scarp_options INTERFACE EIGEN_DONT_VECTORIZE)
 # sqrt and log need not set errno: nothing here reads it, and the compiler may then use the instruction itself.
 target_compile_options(scarp_options INTERFACE -fno-math-errno)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)

@@ -13,6 +13,7 @@ libspdlog-dev
 libfmt-dev
 libxsimd-dev
 nlohmann-json3-dev
+libeigen3-dev
 libgtest-dev
 librapidcheck-dev
 python3 python3-numpy python3-matplotlib

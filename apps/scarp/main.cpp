@@ -20,7 +20,8 @@ constexpr int bad_input = 2, failed = 3, interrupted = 130;
 
 struct Arguments {
   std::string case_file, model;
-  std::vector<std::string> overrides, plot;
+  std::vector<std::string> overrides;
+  std::string curve, picture;
   scarp::run::Options options;
 };
 
@@ -38,6 +39,11 @@ int check(const Arguments& arguments) {
   return 0;
 }
 
+int lab(const Arguments& arguments) {
+  const auto input = scarp::input::read_lab_test(arguments.case_file, arguments.overrides);
+  return scarp::app::run_lab(input, arguments.curve, arguments.picture);
+}
+
 int parse_and_call(int argc, char** argv) {
   CLI::App app{"scarp: large-deformation failure of soil by the material point method"};
   app.set_version_flag("--version", std::string("scarp ") + scarp::version);
@@ -52,7 +58,11 @@ int parse_and_call(int argc, char** argv) {
   run_command->add_flag("--quiet", arguments.options.quiet, "no progress");
   auto* check_command = app.add_subcommand("check", "Read a case, build mesh and points, and describe them");
   check_command->add_option("CASE", arguments.case_file, "case file (TOML)")->required();
-  for (auto* command : {run_command, check_command}) {
+  auto* lab_command = app.add_subcommand("lab", "Run a laboratory test on one stress point");
+  lab_command->add_option("TEST", arguments.case_file, "test file (TOML)")->required();
+  lab_command->add_option("--out", arguments.curve, "file of the curve, CSV (standard output, unless --plot is given)");
+  lab_command->add_option("--plot", arguments.picture, "picture of the curve, such as curve.png");
+  for (auto* command : {run_command, check_command, lab_command}) {
     command
         ->add_option("--set", arguments.overrides, "key=value: change one value of the case, e.g. stage.cut.duration=4")
         ->allow_extra_args(false);
@@ -70,11 +80,12 @@ int parse_and_call(int argc, char** argv) {
   }
   if (run_command->parsed()) return run(arguments);
   if (check_command->parsed()) return check(arguments);
+  if (lab_command->parsed()) return lab(arguments);
   if (models_command->parsed()) {
     scarp::app::print_models(arguments.model);
     return 0;
   }
-  return scarp::app::plot(plot_command->remaining());
+  return scarp::app::run_script("plot.py", plot_command->remaining());
 }
 
 }  // namespace

@@ -14,6 +14,12 @@ StageInput read_stage(const Node& node);
 MethodInput read_method(const Node& node);
 OutputInput read_output(const Node& node);
 
+/// The model that `table` names, with the constants that are its other keys not read before.
+AnyModel read_law(Table& table);
+
+/// The keys of `table` not read before, as initial values of the model; `places` says where each stands.
+Values read_initial(Table& table, const AnyModel& model, std::map<std::string, Position>& places);
+
 /// A polygon: at least three corners, an area, no crossing edges.
 Polygon read_polygon(const Node& node, const std::string& name);
 

@@ -23,12 +23,13 @@ Value value_of(const Node& node, const std::string& key) {
                    "see `scarp models` for what it takes", node.position);
 }
 
-Values read_initial(const Node& node, const MaterialInput& material) {
-  const auto description = std::visit([]<class Model>(const Model&) { return Model::description(); }, material.model);
+}  // namespace
+
+Values read_initial(Table& table, const AnyModel& model, std::map<std::string, Position>& places) {
+  const auto description = std::visit([]<class Model>(const Model&) { return Model::description(); }, model);
   Values values;
   std::set<std::string> known;
   for (const auto& info : description.initial) known.insert(info.key);
-  Table table(node, "initial");
   for (const auto& [key, item] : table.rest()) {
     if (!known.contains(key)) {
       const auto like = nearest(key, known);
@@ -38,19 +39,15 @@ Values read_initial(const Node& node, const MaterialInput& material) {
                                      : fmt::format("its initial values are {}", fmt::join(known, ", ")),
                        item->position);
     }
+    places[key] = item->position;
     values[key] = value_of(*item, key);
   }
   return values;
 }
 
-}  // namespace
-
-MaterialInput read_material(const Node& node) {
-  Table table(node, "[[material]]");
-  std::string name = table.text("name", "add name = \"clay\", for instance");
+AnyModel read_law(Table& table) {
   const Node& model = table.need("model", "add model = \"subloading\", for instance; `scarp models` lists them");
   const std::string model_name = text_in(model, "model");
-  const double density = table.number("density", positive, "add the density of the soil, such as density = 1.8");
   std::map<std::string, double> values;
   std::map<std::string, Position> places{{"model", model.position}};
   for (const auto& [key, item] : table.rest()) {
@@ -63,14 +60,21 @@ MaterialInput read_material(const Node& node) {
     values[key] = *number;
   }
   auto result = make_model(model_name, values);
-  if (!result.problems.empty()) refuse(result.problems.front(), places, node.position);
+  if (!result.problems.empty()) refuse(result.problems.front(), places, table.position());
   for (const auto& warning : result.warnings) {
     const auto found = places.find(warning.key);
-    logging::warn(
-        InputError(warning.what, warning.value, warning.remedy, found == places.end() ? node.position : found->second)
-            .what());
+    logging::warn(InputError(warning.what, warning.value, warning.remedy,
+                             found == places.end() ? table.position() : found->second)
+                      .what());
   }
-  return {std::move(name), *result.model, density, node.position};
+  return *result.model;
+}
+
+MaterialInput read_material(const Node& node) {
+  Table table(node, "[[material]]");
+  std::string name = table.text("name", "add name = \"clay\", for instance");
+  const double density = table.number("density", positive, "add the density of the soil, such as density = 1.8");
+  return {std::move(name), read_law(table), density, node.position};
 }
 
 RegionInput read_region(const Node& node, const std::vector<MaterialInput>& materials) {
@@ -109,7 +113,11 @@ RegionInput read_region(const Node& node, const std::vector<MaterialInput>& mate
   } else {
     region.K0 = number_in(*K0, "K0", not_negative);
   }
-  if (const Node* initial = table.find("initial")) region.initial = read_initial(*initial, materials[region.material]);
+  if (const Node* initial = table.find("initial")) {
+    Table keys(*initial, "initial");
+    std::map<std::string, Position> places;
+    region.initial = read_initial(keys, materials[region.material].model, places);
+  }
   table.finish();
   return region;
 }

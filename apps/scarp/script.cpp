@@ -15,9 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The script next to the program: in the build folder and where it is installed alike.
-fs::path script() {
+fs::path script_path(const std::string& name) {
   const fs::path program = fs::read_symlink("/proc/self/exe");
-  const fs::path path = program.parent_path().parent_path() / "share/scarp/python/scarp/plot.py";
+  const fs::path path = program.parent_path().parent_path() / "share/scarp/python/scarp" / name;
   if (!fs::exists(path))
     throw InputError("the script that draws results is missing", path.string(), "build or install scarp again");
   return path;
@@ -25,9 +25,9 @@ fs::path script() {
 
 }  // namespace
 
-int plot(const std::vector<std::string>& arguments) {
+int run_script(const std::string& script, const std::vector<std::string>& arguments) {
   // Debian's matplotlib belongs to this interpreter; another python3 may be first on PATH.
-  std::vector<std::string> words{"/usr/bin/python3", script().string()};
+  std::vector<std::string> words{"/usr/bin/python3", script_path(script).string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (auto& word : words) argv.push_back(word.data());
