@@ -3,6 +3,7 @@
 import csv
 import sys
 
+import matplotlib.ticker
 import numpy as np
 
 
@@ -46,6 +47,9 @@ def draw(plt, curve):
         axes.grid(alpha=0.3)
         if log and np.all(x > 0):
             axes.set_xscale("log")
+            for axis in (axes.xaxis.set_major_formatter, axes.xaxis.set_minor_formatter):
+                axis(matplotlib.ticker.FormatStrFormatter("%g"))
+            axes.tick_params(axis="x", which="minor", labelsize=7)
 
     panel(panels[0, 0], curve["p"], q, "p", q_name)
     panel(panels[0, 1], strain, q, strain_name, q_name)

@@ -170,7 +170,9 @@ class Specimen {
       if (norm(moved) > 0) last_ = moved;
       return outcome(report);
     }
-    if (!Law(model_, *constraints_, b, leg_dt_, guesses()).strain(soil_)) return no_solution(report.reached);
+    const auto strain = Law(model_, *constraints_, b, leg_dt_, guesses()).strain(soil_);
+    // Close to a limit point the strain for the next bit of stress grows without bounds.
+    if (!strain || norm(*strain) > 100 * norm(last_)) return no_solution(report.reached);
     return outcome(report);
   }
 
