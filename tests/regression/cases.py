@@ -119,6 +119,41 @@ every = 0.2
 history = 0.02
 """
 
+# Undrained shear of structured clay, a stage of three increments.
+LAB = """[material]
+model = "subloading"
+kappa = 0.02
+lambda = 0.12
+nu = 0.3
+p_e = 5.0
+M = 1.0
+M_c = 1.3
+k = 0.78
+alpha = 1.0
+xi = 0.01
+c_R = 60.0
+c_beta = 5.0
+c_b = 20.0
+R_bf = 1.0
+c_a = 3.0
+p_atm = 101.325
+
+[initial]
+stress = [60.0, 60.0, 100.0, 0.0, 0.0, 0.0]
+p_c = 250.0
+R_b = 3.0
+
+[[stage]]
+type = "triaxial-undrained"
+eps_a = 0.01
+increments = 3
+"""
+
+LAB_COLUMNS = (
+    "stage,time,eps_xx,eps_yy,eps_zz,eps_xy,eps_yz,eps_zx,sig_xx,sig_yy,sig_zz,sig_xy,sig_yz,sig_zx,p,q,theta,eps_v,eps_q,u,"
+    "R,epsp_v,epsp_q,p_c,R_b,beta_xx,beta_yy,beta_zz,beta_xy,beta_yz,beta_zx,a_xx,a_yy,a_zz,a_xy,a_yz,a_zx,"
+    "epsp_xx,epsp_yy,epsp_zz,epsp_xy,epsp_yz,epsp_zx,substeps")
+
 
 def replaced(text, old, new):
     """`text` with its only occurrence of `old` replaced."""

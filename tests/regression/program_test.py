@@ -7,7 +7,7 @@ import json
 import os
 
 import cases
-from cases import COLUMN, SLOPE, ProgramTest, contents, frame_times, place, read, replaced
+from cases import COLUMN, LAB, LAB_COLUMNS, SLOPE, ProgramTest, contents, frame_times, place, read, replaced
 
 
 class Commands(ProgramTest):
@@ -46,7 +46,7 @@ class Commands(ProgramTest):
 
     def test_help_and_version(self):
         text = self.scarp("--help").stdout
-        for command in ("run", "check", "models", "plot"):
+        for command in ("run", "check", "lab", "models", "plot"):
             self.assertIn(command, text)
         self.assertIn("--threads", self.scarp("run", "--help").stdout)
         self.assertIn("--panels", self.scarp("plot", "--help").stdout)
@@ -60,6 +60,66 @@ class Commands(ProgramTest):
             with self.subTest(words=words):
                 self.assertGreater(len(self.scarp(*words, status=2).stderr), 10)
         self.assertEqual(os.listdir(self.folder), ["column.toml"])
+
+
+class Laboratory(ProgramTest):
+    def rows(self, text):
+        """The curve's rows as dictionaries; its header is the documented one."""
+        lines = text.splitlines()
+        self.assertEqual(lines[0], LAB_COLUMNS)
+        return [dict(zip(LAB_COLUMNS.split(","), map(float, line.split(",")))) for line in lines[1:]]
+
+    def test_a_curve_on_standard_output_and_in_a_file(self):
+        self.write("test.toml", LAB)
+        done = self.scarp("lab", "test.toml")
+        rows = self.rows(done.stdout)
+        self.assertEqual([row["stage"] for row in rows], [1, 1, 1])
+        self.assertAlmostEqual(rows[-1]["eps_zz"], 0.01, 15)
+        for row in rows:  # undrained: no volume change, and the cell pressure is constant
+            self.assertAlmostEqual(row["eps_v"], 0, 12)
+            self.assertAlmostEqual(row["u"], 60 - row["sig_xx"], 9)
+        self.assertEqual(self.scarp("lab", "test.toml", "--out", "curve.csv").stdout, "")
+        self.assertEqual(read(self.path("curve.csv")).decode(), done.stdout)
+
+    def test_a_strain_path_gives_a_row_for_each_row(self):
+        self.write("strains.csv", "eps_xx,eps_yy,eps_zz,eps_xy,eps_yz,eps_zx\n0,0,0,0,0,0\n0,0,0.001,0,0,0\n0,0,0.002,0,0,0.001\n")
+        self.write("test.toml", LAB[: LAB.index("[[stage]]")] + '[[stage]]\ntype = "strain-path"\nfile = "strains.csv"\n')
+        rows = self.rows(self.scarp("lab", "test.toml").stdout)
+        self.assertEqual([(row["eps_zz"], row["eps_zx"]) for row in rows], [(0, 0), (0.001, 0), (0.002, 0.001)])
+        self.assertEqual(rows[0]["sig_zz"], 100)
+
+    def test_a_picture_alone(self):
+        self.write("test.toml", LAB)
+        self.assertEqual(self.scarp("lab", "test.toml", "--plot", "curve.png").stdout, "")
+        self.assertEqual(read(self.path("curve.png"))[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(sorted(os.listdir(self.folder)), ["curve.png", "test.toml"])
+
+    def test_a_limit_point_keeps_the_rows_before_it(self):
+        self.write("test.toml", replaced(LAB, "eps_a = 0.01\nincrements = 3", "q = 1000.0\nincrements = 100"))
+        done = self.refused("lab", "test.toml", "--out", "curve.csv", status=3,
+                            parts=["stage 1 (triaxial-undrained) stops in increment", "limit point", "q = "])
+        rows = self.rows(read(self.path("curve.csv")).decode())
+        self.assertIn(f"increment {len(rows) + 1} of 100", done.stderr)
+        self.assertGreater(len(rows), 3)
+
+    def test_bad_input_touches_nothing(self):
+        bad = replaced(LAB, '"triaxial-undrained"', '"triaxial"')
+        self.write("test.toml", bad)
+        self.write("curve.csv", "mine")
+        self.refused("lab", "test.toml", "--out", "curve.csv",
+                     parts=["test.toml:" + place(bad, 'type = "triaxial"'), "no such type of stage", "triaxial-drained"])
+        self.assertEqual(read(self.path("curve.csv")), b"mine")
+
+    def test_its_own_files_are_not_overwritten(self):
+        self.write("test.toml", LAB)
+        for option in ("--out", "--plot"):
+            self.refused("lab", "test.toml", option, "./test.toml", parts=["overwrite", option])
+        self.assertEqual(read(self.path("test.toml")).decode(), LAB)
+
+    def test_overrides(self):
+        self.write("test.toml", LAB)
+        rows = self.rows(self.scarp("lab", "test.toml", "--set", "stage.0.increments=5").stdout)
+        self.assertEqual(len(rows), 5)
 
 
 class BadInput(ProgramTest):
