@@ -4,12 +4,17 @@ Oracles: what README and run.hpp promise; arithmetic on the case itself; one run
 """
 
 import csv
+import fcntl
 import io
 import json
 import math
 import os
+import pty
+import re
 import signal
+import struct
 import subprocess
+import termios
 import time
 
 import cases
@@ -145,6 +150,38 @@ class Interruption(ProgramTest):
 
     def test_by_a_request_to_end(self):
         self.interrupt(signal.SIGTERM)
+
+
+class Terminal(ProgramTest):
+    """What a user at a terminal sees of a run: one line that renews itself."""
+
+    def follow(self, text, columns, until):
+        """Runs the case at a terminal this wide until it has printed the pattern; all that it has printed."""
+        self.write("seen.toml", text)
+        ours, theirs = pty.openpty()
+        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
+        run = subprocess.Popen([cases.PROGRAM, "run", "seen.toml", "--out", "r", "--threads", "1"], cwd=self.folder,
+                               stdout=subprocess.DEVNULL, stderr=theirs)
+        os.close(theirs)
+        printed = b""
+        try:
+            limit = time.monotonic() + 60
+            while not re.search(until, printed) and time.monotonic() < limit:
+                self.assertIsNone(run.poll(), printed)
+                printed += os.read(ours, 1000)
+        finally:
+            run.kill()
+            run.wait()
+            os.close(ours)
+        return printed.decode()
+
+    def test_a_stage_that_ends_early_counts_as_done(self):
+        # The first stage is at rest after one step of its thousand million seconds: they are no part of what is left.
+        text = replaced(COLUMN, "damping = 0.5", "rest = { unbalanced = 10.0, kinetic = 10.0 }")
+        text = replaced(text, "duration = 0.2", "duration = 1e9")
+        text = replaced(text, "every = 0.05\nhistory = 0.01", "every = 0.0\nhistory = 1e3")
+        text += '[[stage]]\nname = "after"\nduration = 1e4\n'
+        self.assertIn("stage 2/2 after", self.follow(text, 200, until=rb" [1-9]\d? %, at most \d"))
 
 
 class Threads(ProgramTest):

@@ -14,15 +14,16 @@ double seconds(std::chrono::steady_clock::duration d) {
 
 }  // namespace
 
-Progress::Progress(double total, bool quiet)
-    : total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), shown_(start_) {}
+Progress::Progress(bool quiet)
+    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), shown_(start_) {}
 
 Progress::~Progress() {
   clear();
 }
 
-void Progress::stage(const std::string& name, int index, int count) {
+void Progress::stage(const std::string& name, int index, int count, double latest_end) {
   clear();
+  latest_end_ = latest_end;
   stage_ = fmt::format("stage {}/{} {}", index + 1, count, name);
   if (!quiet_ && !terminal_) fmt::print(stderr, "scarp: {}\n", stage_);
 }
@@ -32,12 +33,11 @@ void Progress::show(double time, std::int64_t point_steps, double unbalanced, do
   const auto now = Clock::now();
   if (seconds(now - shown_) < (terminal_ ? 0.25 : 10.0)) return;
   shown_ = now;
-  const double elapsed = seconds(now - start_), share = total_ > 0 ? time / total_ : 1.0;
+  const double elapsed = seconds(now - start_), share = latest_end_ > 0 ? time / latest_end_ : 1.0;
   const double left = share > 0 ? elapsed * (1 / share - 1) : 0.0;
   const auto line = fmt::format(
-      "{}: t = {:.3f} s, {:.0f} %, at most {} left, {:.2f} million points x steps/s, unbalanced {:.1e}, v {:.2e} m/s",
-      stage_, time, 100 * share, duration_text(left), 1e-6 * static_cast<double>(point_steps) / elapsed, unbalanced,
-      velocity);
+      "{}: t = {:.3f} s, {:.0f} %, at most {} left, {:.2f} million points x steps/s, unbalanced {:.1e}, v {:.2e} m/s", stage_,
+      time, 100 * share, duration_text(left), 1e-6 * static_cast<double>(point_steps) / elapsed, unbalanced, velocity);
   if (terminal_) {
     fmt::print(stderr, "\r\033[K{}", line);
     open_ = true;
