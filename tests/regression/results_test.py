@@ -183,6 +183,16 @@ class Terminal(ProgramTest):
         text += '[[stage]]\nname = "after"\nduration = 1e4\n'
         self.assertIn("stage 2/2 after", self.follow(text, 200, until=rb" [1-9]\d? %, at most \d"))
 
+    def test_the_line_fits_the_terminal(self):
+        text = replaced(COLUMN, "duration = 0.2", "duration = 1e5").replace("settle", "Böschung im Ton")
+        for columns in range(18, 40, 7):  # cuts at every place of the name's letters, one of which has two bytes
+            with self.subTest(columns=columns):
+                printed = self.follow(text, columns, until=rb"\r\x1b\[K[^\r]+\r")
+                lines = printed.split("\r\x1b[K")[1:-1]
+                self.assertTrue(lines)
+                self.assertLess(max(len(line) for line in lines), columns)
+                self.assertIn("stage 1/1 B", lines[0])
+
 
 class Threads(ProgramTest):
     def test_the_same_results_on_one_thread_and_on_two(self):
