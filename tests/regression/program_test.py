@@ -108,6 +108,8 @@ class BadInput(ProgramTest):
         walls = replaced(COLUMN, 'nodes = "left"', 'nodes = "west"')
         self.refuse(walls, f"bad.toml:{place(walls, '[[boundary]]' + chr(10) + 'nodes = ' + chr(34) + 'west')}:",
                     "no such node set", '"west"', '"left"')
+        huge = replaced(COLUMN, "element = 0.5", "elements = [100000, 100000]")
+        self.refuse(huge, f"bad.toml:{place(huge, '[mesh]')}:", "at most 200000000 elements", "use larger elements")
         line = replaced(COLUMN, 'nodes = "left"', "line = [[0.1, 0.0], [0.1, 4.0]]")
         self.refuse(line, f"bad.toml:{place(line, '[[boundary]]' + chr(10) + 'line')}:", "no node", "(0.1, 0)", "edges")
         twice = COLUMN + '[[region]]\nname = "other"\nmaterial = "ground"\nspacing = 0.25\nK0 = 1.0\n' \
