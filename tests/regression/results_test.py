@@ -67,6 +67,14 @@ class Results(ProgramTest):
         self.assertEqual([round(t, 9) for t in times], [0, 0.05, 0.1, 0.15, 0.2])
         self.assertEqual(read(self.path("r", "case.toml")), COLUMN.encode())
 
+    def test_rows_asked_for_more_often_than_there_are_steps(self):
+        # A row at every step, as for 0, however many of its times lie within one.
+        self.scarp("run", "column.toml", "--quiet", "--out", "every", "--set", "output.history=0.0")
+        for history in ("1e-5", "1e-14", "1e-30"):
+            with self.subTest(history=history):
+                self.scarp("run", "column.toml", "--quiet", "--out", "r", "--set", f"output.history={history}")
+                self.assertEqual(self.history("r"), self.history("every"))
+
     def test_output_goes_where_it_should(self):
         done = self.scarp("run", "column.toml", "--out", "deep/er")
         self.assertEqual(done.stdout, "results in deep/er\n")
