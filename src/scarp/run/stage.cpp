@@ -105,6 +105,17 @@ void check_failures(const Context& context) {
       "[method]");
 }
 
+/// One step of the body; an error tells when it came.
+StepBooks<2> step(Context& context, double dt, const StepSettings& settings) {
+  try {
+    return advance(context.body, dt, settings);
+  } catch (const RunError& error) {
+    throw RunError(
+        fmt::format("{} at t = {:.6g} s, step {}", error.problem(), context.ledger.time + dt, context.ledger.steps + 1),
+        error.value(), error.remedy());
+  }
+}
+
 double stable_time_step(const Context& context, double critical) {
   if (!std::isfinite(critical)) {
     throw RunError("no point has any stiffness left, so that there is no critical time step",
@@ -161,7 +172,7 @@ void run_stage(Context& context, int index, StageRecord& record) {
     const double next_lift = removal ? removal->next_time() : end;
     const double until = std::min({end, frames.next(), next_lift}) - ledger.time;
     const double dt = fitted(stable_time_step(context, critical), until);
-    const auto books = advance(body, dt, settings);
+    const auto books = step(context, dt, settings);
     ledger.add(dt, body.point_count(), books);
     if (end - ledger.time < 1e-9 * dt) ledger.time = end;
     critical = books.stress.critical_dt;
