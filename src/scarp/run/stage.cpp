@@ -124,6 +124,15 @@ double stable_time_step(const Context& context, double critical) {
   return context.input.method.safety * critical;
 }
 
+[[noreturn]] void refuse_unrest(const input::StageInput& stage, const StageRecord& record, double kinetic) {
+  throw RunError(
+      fmt::format("the ground does not come to rest in stage \"{}\" within {:g} s", stage.name, stage.duration),
+      fmt::format("an unbalanced force ratio of {:.3g} (asked: {:g}), a kinetic energy of {:.3g} of the weight's "
+                  "(asked: {:g}), a largest velocity of {:.3g} m/s",
+                  record.unbalanced_ratio, stage.rest->unbalanced, kinetic, stage.rest->kinetic, record.max_velocity),
+      "look at the last frame: either the slope does not stand, or the stage needs more time or more damping");
+}
+
 /// Keeps the record of a stage true at its end, whichever way it ends.
 class RecordKeeper {
  public:
@@ -188,15 +197,8 @@ void run_stage(Context& context, int index, StageRecord& record) {
 
   keeper.update();
   record.ended = interrupted() ? "interrupted" : resting ? "at rest" : "duration";
-  if (stage.rest && stage.rest->required && !resting && !interrupted()) {
-    throw RunError(
-        fmt::format("the ground does not come to rest in stage \"{}\" within {:g} s", stage.name, stage.duration),
-        fmt::format("an unbalanced force ratio of {:.3g} (asked: {:g}), a kinetic energy of {:.3g} of the weight's "
-                    "(asked: {:g}), a largest velocity of {:.3g} m/s",
-                    record.unbalanced_ratio, stage.rest->unbalanced, rest->kinetic(ledger), stage.rest->kinetic,
-                    record.max_velocity),
-        "look at the last frame: either the slope does not stand, or the stage needs more time or more damping");
-  }
+  if (stage.rest && stage.rest->required && !resting && !interrupted())
+    refuse_unrest(stage, record, rest->kinetic(ledger));
 }
 
 }  // namespace scarp::run
