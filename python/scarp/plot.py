@@ -155,7 +155,8 @@ def configurations(plt, run, options):
     figure, panels = plt.subplots(len(indices), 1, figsize=(width, height * len(indices) + 0.9), squeeze=False)
     total = height * len(indices) + 0.9
     figure.subplots_adjust(left=0.09, right=0.97, top=1 - 0.3 / total, bottom=1.15 / total, hspace=0.3)
-    for axes, letter, index in zip(panels[:, 0], "abcdefghijklmnop", indices):
+    for number, (axes, index) in enumerate(zip(panels[:, 0], indices)):
+        letter = chr(ord("a") + number) if number < 26 else number + 1
         drawn = draw_points(axes, run, index, run.field(index, name), low, high, colours, cmap)
         axes.set_title(f"({letter})  t = {run.frames[index][0]:.2f} s", loc="left", fontsize=9)
         axes.set_ylabel("y [m]", fontsize=8)

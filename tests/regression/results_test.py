@@ -4,12 +4,17 @@ Oracles: what README and run.hpp promise; arithmetic on the case itself; one run
 """
 
 import csv
+import fcntl
 import io
 import json
 import math
 import os
+import pty
+import re
 import signal
+import struct
 import subprocess
+import termios
 import time
 
 import cases
@@ -61,6 +66,14 @@ class Results(ProgramTest):
         self.assertEqual(len(times), len(frames))
         self.assertEqual([round(t, 9) for t in times], [0, 0.05, 0.1, 0.15, 0.2])
         self.assertEqual(read(self.path("r", "case.toml")), COLUMN.encode())
+
+    def test_rows_asked_for_more_often_than_there_are_steps(self):
+        # A row at every step, as for 0, however many of its times lie within one.
+        self.scarp("run", "column.toml", "--quiet", "--out", "every", "--set", "output.history=0.0")
+        for history in ("1e-5", "1e-14", "1e-30"):
+            with self.subTest(history=history):
+                self.scarp("run", "column.toml", "--quiet", "--out", "r", "--set", f"output.history={history}")
+                self.assertEqual(self.history("r"), self.history("every"))
 
     def test_output_goes_where_it_should(self):
         done = self.scarp("run", "column.toml", "--out", "deep/er")
@@ -145,6 +158,48 @@ class Interruption(ProgramTest):
 
     def test_by_a_request_to_end(self):
         self.interrupt(signal.SIGTERM)
+
+
+class Terminal(ProgramTest):
+    """What a user at a terminal sees of a run: one line that renews itself."""
+
+    def follow(self, text, columns, until):
+        """Runs the case at a terminal this wide until it has printed the pattern; all that it has printed."""
+        self.write("seen.toml", text)
+        ours, theirs = pty.openpty()
+        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
+        run = subprocess.Popen([cases.PROGRAM, "run", "seen.toml", "--out", "r", "--threads", "1"], cwd=self.folder,
+                               stdout=subprocess.DEVNULL, stderr=theirs)
+        os.close(theirs)
+        printed = b""
+        try:
+            limit = time.monotonic() + 60
+            while not re.search(until, printed) and time.monotonic() < limit:
+                self.assertIsNone(run.poll(), printed)
+                printed += os.read(ours, 1000)
+        finally:
+            run.kill()
+            run.wait()
+            os.close(ours)
+        return printed.decode()
+
+    def test_a_stage_that_ends_early_counts_as_done(self):
+        # The first stage is at rest after one step of its thousand million seconds: they are no part of what is left.
+        text = replaced(COLUMN, "damping = 0.5", "rest = { unbalanced = 10.0, kinetic = 10.0 }")
+        text = replaced(text, "duration = 0.2", "duration = 1e9")
+        text = replaced(text, "every = 0.05\nhistory = 0.01", "every = 0.0\nhistory = 1e3")
+        text += '[[stage]]\nname = "after"\nduration = 1e4\n'
+        self.assertIn("stage 2/2 after", self.follow(text, 200, until=rb" [1-9]\d? %, at most \d"))
+
+    def test_the_line_fits_the_terminal(self):
+        text = replaced(COLUMN, "duration = 0.2", "duration = 1e5").replace("settle", "Böschung im Ton")
+        for columns in range(18, 40, 7):  # cuts at every place of the name's letters, one of which has two bytes
+            with self.subTest(columns=columns):
+                printed = self.follow(text, columns, until=rb"\r\x1b\[K[^\r]+\r")
+                lines = printed.split("\r\x1b[K")[1:-1]
+                self.assertTrue(lines)
+                self.assertLess(max(len(line) for line in lines), columns)
+                self.assertIn("stage 1/1 B", lines[0])
 
 
 class Threads(ProgramTest):

@@ -17,7 +17,11 @@ namespace {
 
 std::unique_ptr<const Mesh<2>> make_mesh(const input::MeshInput& input) {
   if (input.file) return std::make_unique<const Mesh<2>>(read_gmsh(*input.file));
-  return std::make_unique<const Mesh<2>>(make_grid(input.grid->origin, input.grid->size, input.grid->elements));
+  try {
+    return std::make_unique<const Mesh<2>>(make_grid(input.grid->origin, input.grid->size, input.grid->elements));
+  } catch (const InputError& error) {
+    throw InputError(error.problem(), error.value(), error.remedy(), input.position);
+  }
 }
 
 /// Nodes within round-off of the segment.

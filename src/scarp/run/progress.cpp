@@ -1,5 +1,6 @@
 #include "scarp/run/progress.hpp"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -12,17 +13,29 @@ double seconds(std::chrono::steady_clock::duration d) {
   return std::chrono::duration<double>(d).count();
 }
 
+/// What fits on one line of the terminal: a longer line would wrap, and only its last part would be renewed.
+std::string fitted_to_terminal(std::string line) {
+  winsize size{};
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || line.size() < size.ws_col) return line;
+  std::size_t length = size.ws_col - 1u;
+  // Not within a letter of several bytes.
+  while (length > 0 && (static_cast<unsigned char>(line[length]) & 0xC0) == 0x80) --length;
+  line.resize(length);
+  return line;
+}
+
 }  // namespace
 
-Progress::Progress(double total, bool quiet)
-    : total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), shown_(start_) {}
+Progress::Progress(bool quiet)
+    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), shown_(start_) {}
 
 Progress::~Progress() {
   clear();
 }
 
-void Progress::stage(const std::string& name, int index, int count) {
+void Progress::stage(const std::string& name, int index, int count, double latest_end) {
   clear();
+  latest_end_ = latest_end;
   stage_ = fmt::format("stage {}/{} {}", index + 1, count, name);
   if (!quiet_ && !terminal_) fmt::print(stderr, "scarp: {}\n", stage_);
 }
@@ -32,14 +45,13 @@ void Progress::show(double time, std::int64_t point_steps, double unbalanced, do
   const auto now = Clock::now();
   if (seconds(now - shown_) < (terminal_ ? 0.25 : 10.0)) return;
   shown_ = now;
-  const double elapsed = seconds(now - start_), share = total_ > 0 ? time / total_ : 1.0;
+  const double elapsed = seconds(now - start_), share = latest_end_ > 0 ? time / latest_end_ : 1.0;
   const double left = share > 0 ? elapsed * (1 / share - 1) : 0.0;
   const auto line = fmt::format(
-      "{}: t = {:.3f} s, {:.0f} %, at most {} left, {:.2f} million points x steps/s, unbalanced {:.1e}, v {:.2e} m/s",
-      stage_, time, 100 * share, duration_text(left), 1e-6 * static_cast<double>(point_steps) / elapsed, unbalanced,
-      velocity);
+      "{}: t = {:.3f} s, {:.0f} %, at most {} left, {:.2f} M point-steps/s, unbalanced {:.1e}, v {:.2e} m/s", stage_,
+      time, 100 * share, duration_text(left), 1e-6 * static_cast<double>(point_steps) / elapsed, unbalanced, velocity);
   if (terminal_) {
-    fmt::print(stderr, "\r\033[K{}", line);
+    fmt::print(stderr, "\r\033[K{}", fitted_to_terminal(line));
     open_ = true;
   } else {
     fmt::print(stderr, "scarp: {}\n", line);

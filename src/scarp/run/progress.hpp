@@ -9,13 +9,13 @@ namespace scarp::run {
 
 class Progress {
  public:
-  /// `total` is the time that all stages may take [s].
-  Progress(double total, bool quiet);
+  explicit Progress(bool quiet);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void stage(const std::string& name, int index, int count);
+  /// A stage begins; `latest_end` is when the run ends if no stage ends before its duration [s].
+  void stage(const std::string& name, int index, int count, double latest_end);
   /// Shows the state now and then: `time` [s], work done so far as points × steps, `velocity` the largest [m/s].
   void show(double time, std::int64_t point_steps, double unbalanced, double velocity);
   /// Ends the renewed line, so that other text can follow.
@@ -23,7 +23,7 @@ class Progress {
 
  private:
   using Clock = std::chrono::steady_clock;
-  double total_;
+  double latest_end_ = 0;
   bool quiet_, terminal_, open_ = false;
   std::string stage_;
   Clock::time_point start_, shown_;

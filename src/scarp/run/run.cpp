@@ -62,6 +62,12 @@ Ledger open_ledger(const Body<2>& body) {
   return ledger;
 }
 
+/// When the run ends if this stage, which starts at `time`, and those after it take all their durations [s].
+double latest_end(const input::Case& input, int stage, double time) {
+  for (std::size_t i = stage; i < input.stages.size(); ++i) time += input.stages[i].duration;
+  return time;
+}
+
 }  // namespace
 
 Outcome run_case(const input::Case& input, const Options& options) {
@@ -69,8 +75,6 @@ Outcome run_case(const input::Case& input, const Options& options) {
   Body<2> body = build_body(input);
   Ledger ledger = open_ledger(body);
   Results results(input, options.out, body);
-  double total = 0;
-  for (const auto& stage : input.stages) total += stage.duration;
 
   const SignalGuard guard;
   const std::function<bool()> interrupted = [] { return asked_to_stop.load(); };
@@ -87,11 +91,11 @@ Outcome run_case(const input::Case& input, const Options& options) {
   results.frame(body, 0);
   write_summary("running", "");
   try {
-    Progress progress(total, options.quiet);
+    Progress progress(options.quiet);
     Context context{input, body, ledger, results, progress, interrupted};
     bool cut = false;
     for (int i = 0; i < static_cast<int>(input.stages.size()) && !interrupted(); ++i) {
-      progress.stage(input.stages[i].name, i, static_cast<int>(input.stages.size()));
+      progress.stage(input.stages[i].name, i, static_cast<int>(input.stages.size()), latest_end(input, i, ledger.time));
       if (input.stages[i].remove && !cut) {
         cut = true;
         energy.start(ledger);

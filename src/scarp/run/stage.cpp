@@ -73,13 +73,14 @@ class Clock {
   double next() const { return every_ > 0 ? start_ + every_ * count_ : std::numeric_limits<double>::infinity(); }
   bool due(double time) {
     if (time < next() * (1 - 1e-12)) return false;
-    while (next() * (1 - 1e-12) <= time) ++count_;
+    // Straight to the first one after `time`: there may be any number of them in a step.
+    count_ = std::max(count_ + 1, std::floor((time - start_) / every_));
+    if (next() * (1 - 1e-12) <= time) ++count_;
     return true;
   }
 
  private:
-  double start_, every_;
-  int count_;
+  double start_, every_, count_;
 };
 
 std::string end_text(IntegrationEnd end) {
@@ -104,12 +105,32 @@ void check_failures(const Context& context) {
       "[method]");
 }
 
+/// One step of the body; an error tells when it came.
+StepBooks<2> step(Context& context, double dt, const StepSettings& settings) {
+  try {
+    return advance(context.body, dt, settings);
+  } catch (const RunError& error) {
+    throw RunError(
+        fmt::format("{} at t = {:.6g} s, step {}", error.problem(), context.ledger.time + dt, context.ledger.steps + 1),
+        error.value(), error.remedy());
+  }
+}
+
 double stable_time_step(const Context& context, double critical) {
   if (!std::isfinite(critical)) {
     throw RunError("no point has any stiffness left, so that there is no critical time step",
                    fmt::format("t = {:.6g} s", context.ledger.time), "look at the last frame: all soil has separated");
   }
   return context.input.method.safety * critical;
+}
+
+[[noreturn]] void refuse_unrest(const input::StageInput& stage, const StageRecord& record, double kinetic) {
+  throw RunError(
+      fmt::format("the ground does not come to rest in stage \"{}\" within {:g} s", stage.name, stage.duration),
+      fmt::format("an unbalanced force ratio of {:.3g} (asked: {:g}), a kinetic energy of {:.3g} of the weight's "
+                  "(asked: {:g}), a largest velocity of {:.3g} m/s",
+                  record.unbalanced_ratio, stage.rest->unbalanced, kinetic, stage.rest->kinetic, record.max_velocity),
+      "look at the last frame: either the slope does not stand, or the stage needs more time or more damping");
 }
 
 /// Keeps the record of a stage true at its end, whichever way it ends.
@@ -160,7 +181,7 @@ void run_stage(Context& context, int index, StageRecord& record) {
     const double next_lift = removal ? removal->next_time() : end;
     const double until = std::min({end, frames.next(), next_lift}) - ledger.time;
     const double dt = fitted(stable_time_step(context, critical), until);
-    const auto books = advance(body, dt, settings);
+    const auto books = step(context, dt, settings);
     ledger.add(dt, body.point_count(), books);
     if (end - ledger.time < 1e-9 * dt) ledger.time = end;
     critical = books.stress.critical_dt;
@@ -176,15 +197,8 @@ void run_stage(Context& context, int index, StageRecord& record) {
 
   keeper.update();
   record.ended = interrupted() ? "interrupted" : resting ? "at rest" : "duration";
-  if (stage.rest && stage.rest->required && !resting && !interrupted()) {
-    throw RunError(
-        fmt::format("the ground does not come to rest in stage \"{}\" within {:g} s", stage.name, stage.duration),
-        fmt::format("an unbalanced force ratio of {:.3g} (asked: {:g}), a kinetic energy of {:.3g} of the weight's "
-                    "(asked: {:g}), a largest velocity of {:.3g} m/s",
-                    record.unbalanced_ratio, stage.rest->unbalanced, rest->kinetic(ledger), stage.rest->kinetic,
-                    record.max_velocity),
-        "look at the last frame: either the slope does not stand, or the stage needs more time or more damping");
-  }
+  if (stage.rest && stage.rest->required && !resting && !interrupted())
+    refuse_unrest(stage, record, rest->kinetic(ledger));
 }
 
 }  // namespace scarp::run

@@ -234,7 +234,7 @@ void find_new_elements(Body<2>& body, const StepSettings& settings, StepBooks<2>
     const auto& points = block.points;
     if (!settings.remove_leaving) {
       throw RunError(fmt::format("point {} of region \"{}\" has left the mesh", points.id[found.lost], block.name),
-                     fmt::format("it at ({:.6g}, {:.6g}), with velocity ({:.4g}, {:.4g})", points.x[0][found.lost],
+                     fmt::format("({:.6g}, {:.6g}), with velocity ({:.4g}, {:.4g})", points.x[0][found.lost],
                                  points.x[1][found.lost], points.v[0][found.lost], points.v[1][found.lost]),
                      "extend the mesh, or let such points be removed with leaving = \"remove\" in [method]");
     }
