@@ -46,6 +46,7 @@ struct Sample {
 inline Sample sample(const std::string& model) {
   if (model == "linear-elastic") return {{{"E", 2e4}, {"nu", 0.3}}, {}};
   if (model == "subloading") return {full_constants(), {{"R_b", 2.5}, {"OCR", 1.6}, {"a", 0.4}, {"beta", "K0"}}};
+  if (model == "neo-hookean") return {{{"E", 2e4}, {"nu", 0.3}}, {}};
   throw std::invalid_argument("add constants and initial values of the model " + model + " to this list");
 }
 
