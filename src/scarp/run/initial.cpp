@@ -81,7 +81,13 @@ class RegionK0 {
 
  private:
   void find_history(const Block<2>& block, const input::RegionInput& region) {
-    const bool elastic = std::visit([](const auto& model) { return requires { model.K0(); }; }, block.model);
+    const bool elastic = std::visit(
+        [](const auto& model) {
+          return requires {
+            model.K0();
+          };
+        },
+        block.model);
     const auto number = [&](const char* key) -> std::optional<double> {
       const auto found = region.initial.find(key);
       if (found == region.initial.end()) return {};
