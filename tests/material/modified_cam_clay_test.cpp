@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <cmath>
 
+#include "lanes.hpp"
 #include "reference.hpp"
 #include "samples.hpp"
 
@@ -263,7 +264,51 @@ TEST(ModifiedCamClay, ErrorFollowsTheTolerance) {
   }
 }
 
-// Random states and increments up to 1e-2: done or reported, never outside the surface, σ:dε^p ≥ 0.
+// Lanes that stay inside, cross, load on the surface and stand on the floor, side by side: each gives what double
+// gives.
+TEST(ModifiedCamClay, MixedLanesGiveWhatDoubleGives) {
+  std::mt19937 generator(5);
+  const auto model = clay({{"p_e", 5}, {"p_c_floor", 0.01}});
+  int inside = 0, plastic = 0;
+  for (int round = 0; round < 50; ++round) {
+    std::array<State, batch_lanes> s;
+    std::array<Sym<double, 6>, batch_lanes> deps;
+    ModifiedCamClay::State<Batch, 6> many;
+    for (std::size_t i = 0; i < batch_lanes; ++i) {
+      const double size = i % 4 == 3 ? 0.005 : 1;
+      s[i] = start(model, std::array{3.0, 1.003, 1.0, 1.0}[i % 4], size * (p100 + 50.0 * random_tensor<6>(generator)));
+      deps[i] = random_tensor<6>(generator, 1e-4);
+      if (round % 5 == 0) deps[i] = Sym<double, 6>{{0, 0, 0, 1e-4, 0, 0}};  // no volume change: 0/0 in a careless form
+    }
+    auto* const lanes = reinterpret_cast<double*>(s.data());
+    int c = 0;
+    for_each_component(
+        [&](Batch& x) {
+          std::array<double, batch_lanes> values;
+          for (std::size_t i = 0; i < batch_lanes; ++i)
+            values[i] = lanes[static_cast<int>(i) * state_size<ModifiedCamClay, 6>() + c];
+          x = pack(values);
+          ++c;
+        },
+        many);
+    const auto trial = attempt<ModifiedEuler>(model, many, pack<6>(deps), 1e-4);
+    for (std::size_t i = 0; i < batch_lanes; ++i) {
+      const auto one = attempt<ModifiedEuler>(model, s[i], deps[i], 1e-4);
+      EXPECT_EQ(trial.notes.sound.get(i), one.notes.sound);
+      EXPECT_EQ(trial.notes.on_floor.get(i), one.notes.on_floor);
+      EXPECT_LT(norm(lane(trial.state.sigma, i) - one.state.sigma), 1e-12 * norm(one.state.sigma));
+      EXPECT_LT(norm(lane(trial.state.epsp, i) - one.state.epsp), 1e-12 * norm(deps[i]));
+      EXPECT_NEAR(lane(trial.state.p_c, i), one.state.p_c, 1e-12 * one.state.p_c);
+      EXPECT_NEAR(lane(trial.error, i), one.error, 1e-9 * one.error + 1e-15);
+      (norm(one.state.epsp) > 0 ? plastic : inside) += 1;
+    }
+  }
+  EXPECT_GT(inside, 50);
+  EXPECT_GT(plastic, 50);
+}
+
+// Random states and increments up to 1e-2: done or reported, never outside the surface, and σ:dε^p ≥ 0 there
+// (σ:N = 2f + p p_c).
 TEST(ModifiedCamClay, RandomIncrementsStayAdmissible) {
   std::mt19937 generator(4);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -272,7 +317,6 @@ TEST(ModifiedCamClay, RandomIncrementsStayAdmissible) {
   for (int i = 0; i < 2000; ++i) {
     auto s = start(model, 1 + 5 * uniform(generator) * (i % 3), p100 + 60.0 * random_tensor<6>(generator));
     for (int k = 0; k < 10; ++k) {
-      const auto before = s;
       const auto deps = random_tensor<6>(generator, std::pow(10, -4 + 2 * uniform(generator)));
       const auto report = integrate<ModifiedEuler>(model, s, deps, {1e-4, 1e-7});
       if (report.end != IntegrationEnd::done) {
@@ -281,11 +325,25 @@ TEST(ModifiedCamClay, RandomIncrementsStayAdmissible) {
       }
       EXPECT_LE(model.yield(s.sigma, s.p_c), 2e-4 * s.p_c * s.p_c);
       EXPECT_TRUE(model.admissible(s));
-      EXPECT_GE(dot(s.sigma + before.sigma, s.epsp - before.epsp), -1e-8 * s.p_c);
+      EXPECT_GE(dot(s.sigma, model.rate(s, deps).change.epsp), -1e-8 * s.p_c * norm(deps));
     }
   }
   std::printf("  %d of 2000 paths ended in a reported failure\n", failed);
   EXPECT_LT(failed, 2);
+}
+
+// Softening that no strain can follow is reported: with κ̄/(λ̄ − κ̄) above its bound N:D:N + H vanishes on the dry side.
+TEST(ModifiedCamClay, InstabilityIsReported) {
+  const std::map<std::string, double> steep{{"kappa", 0.06}, {"p_e", 0}};  // κ̄/(λ̄ − κ̄) = 1.5
+  for (double OCR : {1.5, 20.0}) {
+    const auto model = clay(steep);
+    auto s = start(model, OCR);
+    auto end = IntegrationEnd::done;
+    for (int i = 0; i < 100 && end == IntegrationEnd::done; ++i)
+      end = integrate<DormandPrince>(model, s, triaxial(0, 3e-3), {1e-6, 1e-7}).end;
+    EXPECT_EQ(end, OCR == 20 ? IntegrationEnd::unstable : IntegrationEnd::done) << OCR;
+    EXPECT_LE(model.yield(s.sigma, s.p_c), 1e-6 * s.p_c * s.p_c);
+  }
 }
 
 // ---- The end of strength ----
