@@ -46,6 +46,11 @@ struct Sample {
 inline Sample sample(const std::string& model) {
   if (model == "linear-elastic") return {{{"E", 2e4}, {"nu", 0.3}}, {}};
   if (model == "subloading") return {full_constants(), {{"R_b", 2.5}, {"OCR", 1.6}, {"a", 0.4}, {"beta", "K0"}}};
+  if (model == "neo-hookean") return {{{"E", 2e4}, {"nu", 0.3}}, {}};
+  if (model == "modified-cam-clay") {
+    return {{{"kappa", 0.015}, {"lambda", 0.1}, {"nu", 0.25}, {"p_e", 3}, {"M", 1.2}, {"p_atm", 101.325}},
+            {{"OCR", 1.1}}};
+  }
   throw std::invalid_argument("add constants and initial values of the model " + model + " to this list");
 }
 

@@ -7,12 +7,14 @@
 
 #include "scarp/material/description.hpp"
 #include "scarp/material/linear_elastic.hpp"
+#include "scarp/material/modified_cam_clay.hpp"
+#include "scarp/material/neo_hookean.hpp"
 #include "scarp/material/subloading.hpp"
 
 namespace scarp {
 
 /// A model with its constants; dispatched once per block of points.
-using AnyModel = std::variant<LinearElastic, Subloading>;
+using AnyModel = std::variant<LinearElastic, Subloading, NeoHookean, ModifiedCamClay>;
 
 /// Descriptions of all models, in the order of the list.
 std::vector<ModelDescription> model_descriptions();

@@ -9,7 +9,8 @@
 //   rate(s, deps, dt)     the same for a law that depends on time; or
 //   update(s, increment, tolerance)  a one-step integration of the law's own (a return to the yield surface), in place
 //                         of rate(): answers what attempt() of integrate/embedded.hpp does, with an error estimate that
-//                         falls as the square of the increment, 0 where it is exact
+//                         falls as the square of the increment, 0 where it is exact; update<Pair>(...) where it
+//                         advances by the pair that the caller chose
 //   admissible(s)         may a law be evaluated here?
 //   error_norm(s, e)      size of a state error e relative to s
 //   accept(s, tol)        corrections to the end of an increment, whether it is admissible, and what to count

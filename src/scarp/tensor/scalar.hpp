@@ -17,6 +17,12 @@ inline double sqrt(double x) {
 inline double log(double x) {
   return std::log(x);
 }
+inline double expm1(double x) {
+  return std::expm1(x);
+}
+inline double log1p(double x) {
+  return std::log1p(x);
+}
 inline double abs(double x) {
   return std::fabs(x);
 }

@@ -46,6 +46,23 @@ TEST(K0, NormallyConsolidatedCamClay) {
   }
 }
 
+// Modified Cam Clay on its own; unloading from exactly the yield surface, with constant ν as below.
+TEST(K0, OfModifiedCamClay) {
+  const auto model = *make_model("modified-cam-clay", {{"kappa", kappa},
+                                                       {"lambda", lambda},
+                                                       {"nu", nu},
+                                                       {"p_e", 0},
+                                                       {"M", M},
+                                                       {"p_atm", 101.325},
+                                                       {"p_c_floor", 0}})
+                          .model;
+  for (const double vertical : {1.0, 100.0}) {
+    const K0Curve curve(model, vertical, 2);
+    EXPECT_NEAR(curve(1), cam_clay_K0(), 2e-4) << vertical;
+    EXPECT_NEAR(curve(2), 2 * curve(1) - nu / (1 - nu), 1e-3) << vertical;  // linear interpolation in ln OCR
+  }
+}
+
 TEST(K0, UnloadingIsElasticAsLongAsTheStressStaysInside) {
   // Elastic with constant ν: σ_h falls by ν/(1 − ν) of what σ_v falls by, so K0 = OCR K0_nc − (OCR − 1) ν/(1 − ν).
   const auto model = *make_model("subloading", cam_clay()).model;

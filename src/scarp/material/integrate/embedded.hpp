@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 #include "scarp/material/increment.hpp"
 #include "scarp/material/state.hpp"
@@ -71,11 +72,20 @@ inline auto attempt_pair(const Model& model, const State& s, const Step& step, d
   return trial;
 }
 
+/// Does the law bring an integration of its own that advances by the pair, update<Pair>(s, increment, tolerance), and
+/// whose error estimate so falls as the pair's?
+template <class Model, class Pair, class State, class Step>
+concept UpdatesByPair = requires(const Model& model, const State& s, const Step& step) {
+  model.template update<Pair>(s, step, 1e-4);
+};
+
 /// The whole increment (a strain, or an Increment) at once: by the law's own update where it has one, else by the pair.
 template <class Pair, class Model, class State, class Step>
 inline auto attempt(const Model& model, const State& s, const Step& increment, double tolerance) {
   const auto step = as_increment(increment);
-  if constexpr (requires { updated(model, s, step, tolerance); }) {
+  if constexpr (UpdatesByPair<Model, Pair, State, std::decay_t<decltype(step)>>) {
+    return model.template update<Pair>(s, step, tolerance);
+  } else if constexpr (requires { updated(model, s, step, tolerance); }) {
     return updated(model, s, step, tolerance);
   } else {
     return attempt_pair<Pair>(model, s, step, tolerance);
@@ -165,7 +175,8 @@ IntegrationReport integrate(const Model& model, State& state, const Step& increm
   constexpr bool own_update = requires {
     updated(model, state, whole, 1e-4);
   };
-  constexpr double order = own_update ? 2 : Pair::order;
+  constexpr bool by_pair = UpdatesByPair<Model, Pair, State, std::decay_t<decltype(whole)>>;
+  constexpr double order = own_update && !by_pair ? 2 : Pair::order;
   double step = start, t = 0;
   bool grew_possible = true;
   Doubt doubt(order, settings.tolerance);
