@@ -17,6 +17,12 @@ inline double sqrt(double x) {
 inline double log(double x) {
   return std::log(x);
 }
+inline double sin(double x) {
+  return std::sin(x);
+}
+inline double cos(double x) {
+  return std::cos(x);
+}
 inline double abs(double x) {
   return std::fabs(x);
 }
