@@ -180,12 +180,17 @@ Trial<PlasticState<T, N>, T> update(const Law& law, const PlasticState<T, N>& s,
   r.error = law.error_norm(second.state, difference);
   const Mask<T> exact = !plastic || (r.error <= T(rounding));
   r.error = select(exact, T(0.0), r.error);
+  r.state = select_state(!plastic, r.state, whole.state);
+  r.notes.separated = plastic && whole.parted;
+  r.notes.sound = r.notes.sound && whole.sound;
+  if (all(exact)) return r;
+
   better = advanced(better, T(1.0), difference);
   better.kappa = max(better.kappa, s.kappa);
   const auto last = returned(law, better, Sym<T, N>::zero());
-  r.state = select_state(!plastic, r.state, select_state(exact, whole.state, last.state));
-  r.notes.separated = plastic && ((exact && whole.parted) || (!exact && second.parted));
-  r.notes.sound = r.notes.sound && whole.sound && (exact || (start.sound && first.sound && second.sound && last.sound));
+  r.state = select_state(exact, r.state, last.state);
+  r.notes.separated = (exact && r.notes.separated) || (!exact && second.parted);
+  r.notes.sound = r.notes.sound && (exact || (start.sound && first.sound && second.sound && last.sound));
   return r;
 }
 
