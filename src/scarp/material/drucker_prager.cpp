@@ -24,7 +24,7 @@ ModelDescription DruckerPrager::description() {
        elastoplastic::poisson(),
        {"c", "c", "stress", "cohesion, peak", from_zero, {}, {}},
        {"phi", "φ", "degrees", "angle of friction, peak", from_zero, right, {}},
-       {"psi", "ψ", "degrees", "angle of dilation, no larger than phi", from_zero, right, 0.0},
+       {"psi", "ψ", "degrees", "angle of dilation, no larger than phi", from_zero, right, {}},
        {"c_residual", "c_r", "stress", "residual cohesion", from_zero, {}, {}, "c"},
        {"phi_residual", "φ_r", "degrees", "residual angle of friction", from_zero, right, {}, "phi"},
        {"psi_residual", "ψ_r", "degrees", "angle of dilation at residual strength", from_zero, right, 0.0},

@@ -23,7 +23,7 @@ ModelDescription MohrCoulomb::description() {
        elastoplastic::poisson(),
        {"c", "c", "stress", "cohesion, peak", from_zero, {}, {}},
        {"phi", "φ", "degrees", "angle of friction, peak", from_zero, right, {}},
-       {"psi", "ψ", "degrees", "angle of dilation, no larger than phi", from_zero, right, 0.0},
+       {"psi", "ψ", "degrees", "angle of dilation, no larger than phi", from_zero, right, {}},
        {"tension", "t", "stress", "tensile strength, no larger than the apex c cot φ is taken", from_zero, {}, 1e30},
        {"c_residual", "c_r", "stress", "residual cohesion", from_zero, {}, {}, "c"},
        {"phi_residual", "φ_r", "degrees", "residual angle of friction", from_zero, right, {}, "phi"},
