@@ -321,6 +321,21 @@ TEST(PlasticLaws, AcceptPullsBack) {
   EXPECT_FALSE(model.accept(s, 1e-4).corrected);
 }
 
+// Friction that falls faster than the stress can, at a large mean stress: (dM/dκ) p is some 70 times 3G. It is
+// reported, at the peak.
+TEST(PlasticLaws, UnstableSofteningIsReported) {
+  const auto expect_unstable = [](const auto& model) {
+    State6 s = start(5000);
+    const auto report = integrate<ModifiedEuler>(model, s, Sym<double, 6>{{-0.2, 0.4, -0.2, 0, 0, 0}}, {});
+    EXPECT_EQ(report.end, IntegrationEnd::unstable);
+    EXPECT_GT(report.reached, 0.1);
+    EXPECT_LT(s.kappa, 1e-6);
+  };
+  const Constants brittle{{"phi_residual", 15}, {"epsp_residual", 0.002}};
+  expect_unstable(law<MohrCoulomb>(sand, brittle));
+  expect_unstable(law<DruckerPrager>(sand, brittle));
+}
+
 /// Key of the first problem, "" where there is none.
 std::string refused(const std::string& name, Constants constants, const Constants& changes) {
   for (const auto& [key, value] : changes) constants[key] = value;
