@@ -64,7 +64,10 @@ void print_model(const ModelDescription& model) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& info : model.parameters) {
     rows.push_back({info.key, info.symbol, info.unit, bounds(info),
-                    info.standard ? fmt::format("{}", *info.standard) : "required", info.meaning});
+                    !info.standard_key.empty() ? info.standard_key
+                    : info.standard            ? fmt::format("{}", *info.standard)
+                                               : "required",
+                    info.meaning});
   }
   print_table(rows);
   print_fields("state (key, symbol, unit, kind, meaning; compression positive)", model.state);

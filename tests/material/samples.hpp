@@ -51,6 +51,19 @@ inline Sample sample(const std::string& model) {
     return {{{"kappa", 0.015}, {"lambda", 0.1}, {"nu", 0.25}, {"p_e", 3}, {"M", 1.2}, {"p_atm", 101.325}},
             {{"OCR", 1.1}}};
   }
+  // Weak enough that the suite's states yield, and soften on the way.
+  const std::map<std::string, double> clay{
+      {"E", 2e4}, {"nu", 0.3}, {"s_u", 22}, {"s_u_residual", 15}, {"epsp_residual", 0.02}};
+  const std::map<std::string, double> sand{{"E", 2e4},
+                                           {"nu", 0.3},
+                                           {"c", 2},
+                                           {"phi", 14},
+                                           {"psi", 5},
+                                           {"c_residual", 1},
+                                           {"phi_residual", 11},
+                                           {"epsp_residual", 0.03}};
+  if (model == "von-mises" || model == "tresca") return {clay, {}};
+  if (model == "mohr-coulomb" || model == "drucker-prager") return {sand, {}};
   throw std::invalid_argument("add constants and initial values of the model " + model + " to this list");
 }
 

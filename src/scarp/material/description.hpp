@@ -28,6 +28,7 @@ struct ParameterInfo {
   std::string meaning;
   std::optional<Bound> low, high;
   std::optional<double> standard;  ///< used where the key is left out; without it the key is required
+  std::string standard_key = {};   ///< or: the value of that constant is used
 };
 
 enum class FieldKind { scalar, tensor };  ///< a tensor turns with the body

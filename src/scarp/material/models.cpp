@@ -37,6 +37,7 @@ std::map<std::string, double> checked(const ModelDescription& model, const std::
   for (const auto& info : model.parameters) {
     const auto found = values.find(info.key);
     if (found == values.end()) {
+      if (!info.standard_key.empty()) continue;
       if (!info.standard) {
         problems.push_back(
             {info.key,
@@ -54,6 +55,10 @@ std::map<std::string, double> checked(const ModelDescription& model, const std::
                           fmt::format("{}", found->second), fmt::format("{}: {}", info.symbol, info.meaning)});
     }
     full[info.key] = found->second;
+  }
+  for (const auto& info : model.parameters) {
+    const auto other = full.find(info.standard_key);
+    if (!full.contains(info.key) && other != full.end()) full[info.key] = other->second;
   }
   for (const auto& [key, value] : values) {
     bool known = false;

@@ -6,15 +6,20 @@
 #include <vector>
 
 #include "scarp/material/description.hpp"
+#include "scarp/material/drucker_prager.hpp"
 #include "scarp/material/linear_elastic.hpp"
 #include "scarp/material/modified_cam_clay.hpp"
+#include "scarp/material/mohr_coulomb.hpp"
 #include "scarp/material/neo_hookean.hpp"
 #include "scarp/material/subloading.hpp"
+#include "scarp/material/tresca.hpp"
+#include "scarp/material/von_mises.hpp"
 
 namespace scarp {
 
 /// A model with its constants; dispatched once per block of points.
-using AnyModel = std::variant<LinearElastic, Subloading, NeoHookean, ModifiedCamClay>;
+using AnyModel = std::variant<LinearElastic, Subloading, NeoHookean, ModifiedCamClay, VonMises, Tresca, MohrCoulomb,
+                              DruckerPrager>;
 
 /// Descriptions of all models, in the order of the list.
 std::vector<ModelDescription> model_descriptions();

@@ -81,7 +81,7 @@ class RegionK0 {
 
  private:
   void find_history(const Block<2>& block, const input::RegionInput& region) {
-    const bool elastic = std::visit(
+    const bool historyless = std::visit(
         [](const auto& model) {
           return requires {
             model.K0();
@@ -95,7 +95,7 @@ class RegionK0 {
       return value ? std::optional<double>(*value) : std::nullopt;
     };
     const auto ocr = number("OCR"), pop = number("POP");
-    if (!elastic && !ocr && !pop) {
+    if (!historyless && !ocr && !pop) {
       throw InputError(
           fmt::format("K0 = \"model\" in region \"{}\" takes the history of the soil from OCR or POP", region.name),
           "neither", "give OCR or POP in initial, or K0 as a number", region.position);

@@ -22,6 +22,11 @@ inline double expm1(double x) {
 }
 inline double log1p(double x) {
   return std::log1p(x);
+inline double sin(double x) {
+  return std::sin(x);
+}
+inline double cos(double x) {
+  return std::cos(x);
 }
 inline double abs(double x) {
   return std::fabs(x);

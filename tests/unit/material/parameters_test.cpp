@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "material/samples.hpp"
 
@@ -100,18 +101,39 @@ TEST(Parameters, WithoutAStandardValueAKeyIsRequired) {
   for (const auto& model : model_descriptions()) {
     for (const auto& info : model.parameters) {
       auto constants = sample(model.name).constants;
+      // A residual strength that is given needs the strain that it is reached at, standard value or not.
+      for (const auto& other : model.parameters)
+        if (!other.standard_key.empty()) constants.erase(other.key);
       constants.erase(info.key);
+      const bool standard = info.standard || !info.standard_key.empty();
       const auto result = make_model(model.name, constants);
-      EXPECT_EQ(result.model.has_value(), info.standard.has_value()) << info.key;
-      EXPECT_EQ(names(result.problems, info.key), !info.standard.has_value()) << info.key;
+      EXPECT_EQ(result.model.has_value(), standard) << info.key;
+      EXPECT_EQ(names(result.problems, info.key), !standard) << info.key;
     }
   }
 }
 
-TEST(Parameters, OnlyNumericalConstantsHaveStandardValues) {
+// No soil constant is invented: a standard value is numerical, or leaves a feature out (no softening, no cut-off before
+// the apex; soil at residual strength shears at constant volume).
+TEST(Parameters, OnlyNumericalConstantsAndFeaturesLeftOutHaveStandardValues) {
+  const std::set<std::string> features{"epsp_residual", "tension", "psi_residual"};
   for (const auto& model : model_descriptions())
     for (const auto& info : model.parameters)
-      EXPECT_TRUE(!info.standard || info.meaning.starts_with("numerical")) << info.key;
+      EXPECT_TRUE(!info.standard || features.contains(info.key) || info.meaning.starts_with("numerical")) << info.key;
+}
+
+TEST(Parameters, StandardValueOfAnotherConstant) {
+  const auto result = make_model("tresca", {{"E", 1e4}, {"nu", 0.4}, {"s_u", 30}});
+  ASSERT_TRUE(result.model);
+  EXPECT_EQ(std::get<Tresca>(*result.model).parameters().s_u.residual, 30);
+  for (const auto& model : model_descriptions())
+    for (const auto& info : model.parameters) {
+      if (info.standard_key.empty()) continue;
+      EXPECT_FALSE(info.standard) << info.key;
+      EXPECT_TRUE(std::any_of(model.parameters.begin(), model.parameters.end(), [&](const auto& other) {
+        return other.key == info.standard_key && other.standard_key.empty();
+      })) << info.key;
+    }
 }
 
 TEST(Parameters, UnknownNamesAreProblems) {

@@ -1,0 +1,254 @@
+// What the linear-elastic, plastic laws share: a state of stress, plastic strain and its accumulated deviatoric part κ;
+// strength that falls with κ; and the advance of a state by elastic predictor and return to the yield surface.
+//
+// A law of this kind gives
+//   elasticity()             K and G
+//   softens()                does its strength depend on κ?
+//   resolve(trial)           what of a trial stress does not depend on κ: invariants or principal values
+//   correction(at, κ)        trial stress less the stress that it returns to on the surface of κ, see Correction
+//   excess(at, κ, way)       of the stress beyond the surface, see Excess
+//   compose(at, correction)  that difference as a tensor
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "scarp/material/description.hpp"
+#include "scarp/material/increment.hpp"
+#include "scarp/material/state.hpp"
+
+namespace scarp {
+
+template <class T, int N>
+struct PlasticState {
+  Sym<T, N> sigma;
+  Sym<T, N> epsp;  ///< plastic strain
+  T kappa;         ///< accumulated plastic deviatoric strain ∫ √(2/3) ‖dev dε^p‖
+
+  template <class F, class... States>
+  static void each(F&& f, States&... s) {
+    f(s.sigma...);
+    f(s.epsp...);
+    f(s.kappa...);
+  }
+};
+
+/// Isotropic linear elasticity.
+struct Elasticity {
+  double K, G;
+
+  static Elasticity from(double E, double nu) { return {E / (3.0 * (1.0 - 2.0 * nu)), E / (2.0 * (1.0 + nu))}; }
+  double lame() const { return K - 2.0 / 3.0 * G; }
+
+  template <class T, int N>
+  Sym<T, N> stress(const Sym<T, N>& strain) const {
+    return T(2.0 * G) * strain + isotropic<T, N>(T(lame()) * trace(strain));
+  }
+  template <class T, int N>
+  Sym<T, N> strain(const Sym<T, N>& stress) const {
+    return T(0.5 / G) * stress + isotropic<T, N>(T(1.0 / (9.0 * K) - 1.0 / (6.0 * G)) * trace(stress));
+  }
+};
+
+/// A strength that falls in a straight line over κ from its peak to its residual value.
+struct Softening {
+  double peak, residual;
+  double over;  ///< κ at which the residual value is reached; 0: the peak value stays
+
+  bool active() const { return over > 0.0 && residual != peak; }
+  double slope() const { return active() ? (residual - peak) / over : 0.0; }
+
+  template <class T>
+  T operator()(const T& kappa) const {
+    return active() ? T(peak) + T((residual - peak) / over) * min(max(kappa, T(0.0)), T(over)) : T(peak);
+  }
+};
+
+/// The return of one trial stress; `Size` is what the law's compose() makes a tensor of.
+template <class Size, class T>
+struct Correction {
+  Size size;
+  T dkappa;         ///< √(2/3) ‖dev Δε^p‖ that goes with it
+  Mask<T> plastic;  ///< the trial stress lies outside the surface
+  Mask<T> parted;   ///< it returns to an apex at zero stress: the point separates from the body
+};
+
+/// A convex function of stress that is positive outside the surface, and its slope along a way in stress.
+template <class T>
+struct Excess {
+  T f, df;
+};
+
+namespace elastoplastic {
+
+/// Below this share of the stress, outside the surface is on it: rounding.
+inline constexpr double on_surface = 1e-12;
+
+template <class T, int N>
+struct Returned {
+  PlasticState<T, N> state;
+  Mask<T> plastic, parted, sound;
+};
+
+/// Elastic predictor and return with the strength of the end of the step, κ₁ = κ₀ + Δκ(κ₁): fully implicit (Simo &
+/// Hughes, Computational Inelasticity, 1998, ch. 3). Δκ is nearly linear in κ₁, so that the secant method ends after
+/// two or three steps; a strength that falls faster than the elastic unloading (Δκ' ≥ 1) has no stable answer.
+template <class Law, class T, int N, class At>
+Returned<T, N> returned(const Law& law, const PlasticState<T, N>& s, const Sym<T, N>& elastic, const At& at) {
+  constexpr int most = 8;
+  constexpr double enough = 1e-15;  // of κ
+  const Sym<T, N> trial = s.sigma + elastic;
+  auto c = law.correction(at, s.kappa);
+  Mask<T> sound = c.dkappa < T(1.0);  // strain of 1 in an increment, or NaN: nonsense
+  if (law.softens() && any(c.plastic)) {
+    T kappa = s.kappa, miss = c.dkappa, step = c.dkappa;
+    const T first = miss;
+    for (int i = 0; i < most && any(abs(miss) > T(enough)); ++i) {
+      kappa = kappa + step;
+      c = law.correction(at, kappa);
+      const T before = miss;
+      miss = s.kappa + c.dkappa - kappa;
+      if (i == 0) sound = sound && ((miss < first) || (first <= T(enough)));
+      const T fall = before - miss;
+      const Mask<T> ready = (abs(miss) <= T(enough)) || (abs(fall) < T(1e-300));
+      step = select(ready, T(0.0), miss * step / select(ready, T(1.0), fall));
+    }
+    sound = sound && (abs(miss) <= T(1e-9) * c.dkappa + T(enough));
+  }
+  const Sym<T, N> back = law.compose(at, c);
+  Returned<T, N> r;
+  for (int i = 0; i < N; ++i) r.state.sigma[i] = select(c.plastic, trial[i] - back[i], trial[i]);
+  const Sym<T, N> depsp = law.elasticity().strain(back);
+  for (int i = 0; i < N; ++i) r.state.epsp[i] = select(c.plastic, s.epsp[i] + depsp[i], s.epsp[i]);
+  r.state.kappa = select(c.plastic, s.kappa + c.dkappa, s.kappa);
+  r.plastic = c.plastic;
+  r.parted = c.parted;
+  r.sound = sound && (trace(r.state.sigma) == trace(r.state.sigma)) && (norm(back) < T(1e300));
+  return r;
+}
+
+template <class Law, class T, int N>
+Returned<T, N> returned(const Law& law, const PlasticState<T, N>& s, const Sym<T, N>& elastic) {
+  return returned(law, s, elastic, law.resolve(s.sigma + elastic));
+}
+
+/// Share of the increment after which plastic straining starts, for trial stresses that end outside the surface with
+/// excess f and slope df there. Along the straight way the excess is convex, so that Newton's method comes down on its
+/// last zero from above; four steps leave no more than a few percent of the plastic part below it.
+template <class Law, class T, int N>
+T elastic_share(const Law& law, const PlasticState<T, N>& s, const Sym<T, N>& elastic, const Mask<T>& plastic,
+                const Excess<T>& end) {
+  constexpr int steps = 4;
+  constexpr double soon = 1.0 / 64;
+  // Outside so soon, the last zero is as good as at the start. (The slope at the start would say less: on an edge of a
+  // surface it has many.)
+  const auto ahead = law.excess(law.resolve(s.sigma + T(soon) * elastic), s.kappa, elastic);
+  const Mask<T> on = !plastic || (ahead.f > T(0.0));
+  T share = select(on, T(0.0), T(1.0));
+  if (all(on)) return share;
+  auto e = end;
+  for (int i = 0; i < steps; ++i) {
+    const Mask<T> down = (e.f > T(0.0)) && (e.df > e.f);  // else the step leaves the increment
+    share = select(on, T(0.0), select(down, share - e.f / select(down, e.df, T(1.0)), share));
+    share = max(share, T(0.0));
+    if (i + 1 < steps) e = law.excess(law.resolve(s.sigma + share * elastic), s.kappa, elastic);
+  }
+  return share;
+}
+
+/// The elastic part, and then the rest in one step and in two. Either has an error of second order in the increment
+/// where the flow turns on the way (a step's direction is that of its end); it is twice as large in one step, so that
+/// the difference is the error of the two, and twice the second less the first is better than both: what rests beside
+/// the surface, of fourth order, returns to it. Where the flow does not turn the two agree, and the answer is exact.
+template <class Law, class T, int N>
+Trial<PlasticState<T, N>, T> update(const Law& law, const PlasticState<T, N>& s, const Sym<T, N>& deps) {
+  constexpr double rounding = 1e-13;
+  const Sym<T, N> elastic = law.elasticity().stress(deps);
+  const auto at_end = law.resolve(s.sigma + elastic);
+  auto whole = returned(law, s, elastic, at_end);
+  const Mask<T> none = T(0.0) != T(0.0), plastic = whole.plastic;
+  Trial<PlasticState<T, N>, T> r{whole.state, T(0.0), {none, none, whole.parted, whole.sound}};
+  if (!any(plastic)) return r;
+
+  const T share = elastic_share(law, s, elastic, plastic, law.excess(at_end, s.kappa, elastic));
+  const auto start = returned(law, s, share * elastic);
+  const Sym<T, N> rest = (T(1.0) - share) * elastic;
+  if (any(share > T(0.0))) whole = returned(law, start.state, rest);
+  const auto first = returned(law, start.state, T(0.5) * rest);
+  const auto second = returned(law, first.state, T(0.5) * rest);
+  PlasticState<T, N> better = second.state, difference = advanced(second.state, T(-1.0), whole.state);
+  r.error = law.error_norm(second.state, difference);
+  const Mask<T> exact = !plastic || (r.error <= T(rounding));
+  r.error = select(exact, T(0.0), r.error);
+  r.state = select_state(!plastic, r.state, whole.state);
+  r.notes.separated = plastic && whole.parted;
+  r.notes.sound = r.notes.sound && whole.sound;
+  if (all(exact)) return r;
+
+  better = advanced(better, T(1.0), difference);
+  better.kappa = max(better.kappa, s.kappa);
+  const auto last = returned(law, better, Sym<T, N>::zero());
+  r.state = select_state(exact, r.state, last.state);
+  r.notes.separated = (exact && r.notes.separated) || (!exact && second.parted);
+  r.notes.sound = r.notes.sound && (exact || (start.sound && first.sound && second.sound && last.sound));
+  return r;
+}
+
+/// Pulls a state that is outside its yield surface onto it and notes that; leaves every other alone.
+template <class Law, class T, int N>
+Notes<T> accept(const Law& law, PlasticState<T, N>& s) {
+  const auto on = returned(law, s, Sym<T, N>::zero());
+  s = select_state(on.plastic, on.state, s);
+  const Mask<T> none = T(0.0) != T(0.0);
+  return {on.plastic, none, on.parted, on.sound};
+}
+
+/// √(sum of squares) of the error of stress over `scale` and of the absolute ones of the plastic strain and κ.
+template <class T, int N>
+T error_norm(const PlasticState<T, N>& e, const T& scale) {
+  const T inverse = T(1.0) / scale;
+  return sqrt(dot(e.sigma, e.sigma) * inverse * inverse + dot(e.epsp, e.epsp) + e.kappa * e.kappa);
+}
+
+// What the laws' descriptions and initial values share.
+
+ParameterInfo young();
+ParameterInfo poisson();
+/// Strain over which strength falls.
+ParameterInfo softening_strain();
+/// State, derived quantities and initial keys.
+ModelDescription described(const std::string& name, const std::string& summary, std::vector<ParameterInfo> parameters);
+
+/// A residual strength, `key`_residual, is no larger than the peak and is reached over some strain.
+void check_softening(const std::string& key, const Softening& strength, std::vector<Problem>& problems);
+/// Problem where the strength falls faster with κ than elastic unloading can follow, at `steepest`.
+void check_slope(const std::string& key, double slope, double steepest, std::vector<Problem>& problems);
+
+/// Dilation is no more than friction, and there is some strength, at the peak and at the end.
+void check_frictional(const Softening& c, const Softening& phi, const Softening& psi, std::vector<Problem>& problems);
+
+/// κ of the region's keys.
+double initial_kappa(const Values& keys, std::vector<Problem>& problems);
+
+/// The initial stress with these invariants lies outside the yield surface.
+void refuse_outside(double q, double p, std::vector<Problem>& problems);
+
+/// The state at `sigma`; a problem where that lies outside the yield surface.
+template <class Law, int N>
+PlasticState<double, N> initial_state(const Law& law, const Sym<double, N>& sigma, const Values& keys,
+                                      std::vector<Problem>& problems) {
+  const PlasticState<double, N> s{sigma, Sym<double, N>::zero(), initial_kappa(keys, problems)};
+  const auto on = returned(law, s, Sym<double, N>::zero());
+  if (norm(on.state.sigma - sigma) > 1e-9 * norm(sigma)) {
+    refuse_outside(deviatoric_stress(sigma), mean(sigma), problems);
+  }
+  return s;
+}
+
+template <int N>
+std::vector<double> derived(const PlasticState<double, N>& s) {
+  return {trace(s.epsp), 0.81649658092772603273 * norm(deviator(s.epsp))};
+}
+
+}  // namespace elastoplastic
+}  // namespace scarp
