@@ -3,12 +3,13 @@ BUILD := build
 JOBS := $(shell nproc)
 RESULTS := results/slope_cut
 
-.PHONY: help demo test build deps format clean
+.PHONY: help demo test build figures deps format clean
 
 help:
 	@echo "make demo     cut a slope of structured clay and draw what happens, in $(RESULTS)"
 	@echo "make test     build and run all tests"
 	@echo "make build    build the program, $(BUILD)/bin/scarp"
+	@echo "make figures  draw the pictures of docs and examples/lab again (minutes)"
 	@echo "make format   put the C++ text into the project's format"
 	@echo "make clean    remove $(BUILD)"
 
@@ -24,6 +25,10 @@ test: deps
 build: deps
 	cmake --preset release -DSCARP_TESTS=OFF
 	cmake --build --preset release --parallel $(JOBS)
+
+figures: build
+	for script in examples constants work_precision kinks; do \
+	  /usr/bin/python3 tools/figures/$$script.py $(BUILD)/bin/scarp || exit 1; done
 
 deps:
 	@tools/install-deps.sh
