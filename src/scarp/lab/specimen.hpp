@@ -170,7 +170,12 @@ class Specimen {
       if (norm(moved) > 0) last_ = moved;
       return outcome(report);
     }
-    const auto strain = Law(model_, *constraints_, b, leg_dt_, guesses()).strain(soil_);
+    if (!law.soil_rate(soil_, last_).sound) {
+      auto unstable = report;
+      unstable.end = IntegrationEnd::unstable;
+      return outcome(unstable);
+    }
+    const auto strain = law.strain(soil_);
     // Close to a limit point the strain for the next bit of stress grows without bounds.
     if (!strain || norm(*strain) > 100 * norm(last_)) return no_solution(report.reached);
     return outcome(report);

@@ -18,8 +18,8 @@
 namespace scarp {
 
 /// A model with its constants; dispatched once per block of points.
-using AnyModel = std::variant<LinearElastic, Subloading, NeoHookean, ModifiedCamClay, VonMises, Tresca, MohrCoulomb,
-                              DruckerPrager>;
+using AnyModel =
+    std::variant<LinearElastic, Subloading, NeoHookean, ModifiedCamClay, VonMises, Tresca, MohrCoulomb, DruckerPrager>;
 
 /// Descriptions of all models, in the order of the list.
 std::vector<ModelDescription> model_descriptions();

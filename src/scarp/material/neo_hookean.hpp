@@ -69,8 +69,11 @@ class NeoHookean {
   Trial<State<T, N>, T> update(const State<T, N>& s, const Increment<T, N>& increment, double tolerance) const {
     Trial<State<T, N>, T> trial;
     trial.state.b = triple_product(exponential(T(-1.0) * increment.deps), s.b);
+    trial.state.sigma = stress(trial.state.b);
     trial.error = T(2.0) * exponential_error(increment.deps);
     trial.notes = accept(trial.state, tolerance);
+    // Rounding would move a state to which nothing happens.
+    trial.state = select_state(dot(increment.deps, increment.deps) == T(0.0), s, trial.state);
     return trial;
   }
 
@@ -86,10 +89,8 @@ class NeoHookean {
     return norm(e.b) / norm(s.b);
   }
 
-  /// Stress from b.
   template <class T, int N>
   Notes<T> accept(State<T, N>& s, double) const {
-    s.sigma = stress(s.b);
     const Mask<T> none = T(0.0) != T(0.0);
     return {none, none, none, admissible(s)};
   }

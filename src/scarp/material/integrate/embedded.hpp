@@ -118,7 +118,7 @@ class Doubt {
   bool about(double error, double step) const {
     if (error < 1e-3 * tolerance_) return false;
     const double expected = error_ * std::pow(step / step_, order_);
-    return !(error < 5 * expected && error > 0.2 * expected);
+    return !(error < 1.7 * expected && error > 0.6 * expected);
   }
   void accepted(double error, double step) {
     error_ = error;
