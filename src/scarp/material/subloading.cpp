@@ -8,7 +8,11 @@
 namespace scarp {
 
 Subloading::Subloading(const Parameters& p)
-    : c_(p), g2_(3.0 * (1.0 - 2.0 * p.nu) / (1.0 + p.nu)), floor_(p.p_c_floor * p.p_atm) {}
+    : c_(p),
+      g2_(3.0 * (1.0 - 2.0 * p.nu) / (1.0 + p.nu)),
+      n_s_(3.0 / (p.M * p.M)),
+      g_s_(n_s_ / (p.alpha * p.alpha)),
+      floor_(p.p_c_floor * p.p_atm) {}
 
 ModelDescription Subloading::description() {
   const Bound zero{0.0, true}, from_zero{0.0, false}, one{1.0, false}, below_one{1.0, true};
