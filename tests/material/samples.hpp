@@ -46,6 +46,11 @@ struct Sample {
 inline Sample sample(const std::string& model) {
   if (model == "linear-elastic") return {{{"E", 2e4}, {"nu", 0.3}}, {}};
   if (model == "subloading") return {full_constants(), {{"R_b", 2.5}, {"OCR", 1.6}, {"a", 0.4}, {"beta", "K0"}}};
+  if (model == "viscoplastic-subloading") {
+    auto constants = full_constants();
+    constants.insert({{"mu", 30}, {"n", 2}, {"R_m", 1.6}});
+    return {constants, {{"R_b", 2.5}, {"OCR", 1.6}, {"a", 0.4}, {"beta", "K0"}}};
+  }
   throw std::invalid_argument("add constants and initial values of the model " + model + " to this list");
 }
 

@@ -8,11 +8,12 @@
 #include "scarp/material/description.hpp"
 #include "scarp/material/linear_elastic.hpp"
 #include "scarp/material/subloading.hpp"
+#include "scarp/material/viscoplastic_subloading.hpp"
 
 namespace scarp {
 
 /// A model with its constants; dispatched once per block of points.
-using AnyModel = std::variant<LinearElastic, Subloading>;
+using AnyModel = std::variant<LinearElastic, Subloading, ViscoplasticSubloading>;
 
 /// Descriptions of all models, in the order of the list.
 std::vector<ModelDescription> model_descriptions();

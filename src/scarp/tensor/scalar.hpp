@@ -17,6 +17,9 @@ inline double sqrt(double x) {
 inline double log(double x) {
   return std::log(x);
 }
+inline double exp(double x) {
+  return std::exp(x);
+}
 inline double abs(double x) {
   return std::fabs(x);
 }
