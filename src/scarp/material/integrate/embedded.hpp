@@ -108,6 +108,63 @@ IntegrationEnd failure(const Model& model, const State& state, const Step& part,
   return solvable ? IntegrationEnd::not_converged : IntegrationEnd::unstable;
 }
 
+/// Order of the error estimate: the pair's, or that of the law's own update.
+template <class Pair, class Model, class State, class Step>
+constexpr double error_order() {
+  return requires(const Model& model, const State& s, const Step& i) {
+    updated(model, s, i, 1e-4);
+  }
+  ? 2 : Pair::order;
+}
+
+/// The step control of one increment: which share of it to try next, and what became of that. Sloan-type: factor
+/// 0.9 (tolerance/error)^(1/order), bounded, and no growth right after a rejection.
+class StepControl {
+ public:
+  StepControl() = default;
+  explicit StepControl(double start) : step_(start) {}
+
+  IntegrationReport report;  ///< but for its end, where stuck()
+
+  bool finished() const { return t_ == 1.0; }
+  /// The last trial was rejected, and the next would be smaller than allowed.
+  bool stuck(const IntegrationSettings& settings) const { return rejected_ && step_ < settings.smallest_substep; }
+
+  /// The share of the increment to try.
+  double next() {
+    step_ = std::min(step_, 1.0 - t_);
+    // A remainder of round-off size would be a substep of its own.
+    if (1.0 - t_ - step_ < 1e-12) step_ = 1.0 - t_;
+    return step_;
+  }
+
+  /// Is the trial good? A NaN error is not.
+  bool judge(double error, const Notes<double>& notes, double tolerance, double order) {
+    const bool good = notes.sound && error <= tolerance;
+    const double ratio = tolerance / std::max(error, 1e-16 * tolerance);
+    const double power = order == 2 ? std::sqrt(ratio) : std::pow(ratio, 1.0 / order);
+    const double factor = std::isfinite(error) ? 0.9 * power : 0.1;
+    if (good) {
+      const bool corrected = report.notes.corrected || notes.corrected;
+      report.notes = notes;
+      report.notes.corrected = corrected;
+      ++report.substeps;
+      t_ = (step_ == 1.0 - t_) ? 1.0 : t_ + step_;
+      step_ *= std::clamp(factor, 0.2, rejected_ ? 1.0 : 5.0);
+    } else {
+      ++report.rejected;
+      step_ *= notes.sound ? std::clamp(factor, 0.1, 0.9) : 0.25;
+    }
+    rejected_ = !good;
+    report.reached = t_;
+    return good;
+  }
+
+ private:
+  double step_ = 1, t_ = 0;
+  bool rejected_ = false;
+};
+
 /// Integrates `state` over an increment (a strain, compression positive, or an Increment), substep by substep. When an
 /// error below the tolerance needs less than the smallest substep, `state` is left at the last accepted one and the
 /// report says how far it came. `start` is the first substep to try, as a share of the increment.
@@ -123,44 +180,19 @@ IntegrationReport integrate(const Model& model, State& state, const Step& increm
     report.notes = model.accept(same, settings.tolerance);
     return report;
   }
-  constexpr bool own_update = requires {
-    updated(model, state, whole, 1e-4);
-  };
-  constexpr double order = own_update ? 2 : Pair::order;
-  double step = start, t = 0;
-  bool grew_possible = true;
-  while (t < 1.0) {
-    step = std::min(step, 1.0 - t);
-    // A remainder of round-off size would be a substep of its own.
-    if (1.0 - t - step < 1e-12) step = 1.0 - t;
-    const auto part = step * whole;
+  constexpr double order = error_order<Pair, Model, State, decltype(whole)>();
+  StepControl control(start);
+  while (!control.finished()) {
+    const auto part = control.next() * whole;
     const auto trial = attempt<Pair>(model, state, part, settings.tolerance);
-    const bool sound = trial.notes.sound;
-    const bool good = sound && trial.error <= settings.tolerance;  // a NaN error is not good
-    const double ratio = settings.tolerance / std::max(trial.error, 1e-16 * settings.tolerance);
-    double factor = std::isfinite(trial.error) ? 0.9 * std::pow(ratio, 1.0 / order) : 0.1;
-    if (good) {
+    if (control.judge(trial.error, trial.notes, settings.tolerance, order)) {
       state = trial.state;
-      const bool corrected = report.notes.corrected || trial.notes.corrected;
-      report.notes = trial.notes;
-      report.notes.corrected = corrected;
-      ++report.substeps;
-      t = (step == 1.0 - t) ? 1.0 : t + step;
-      step *= std::clamp(factor, 0.2, grew_possible ? 5.0 : 1.0);
-      grew_possible = true;
-    } else {
-      ++report.rejected;
-      grew_possible = false;
-      step *= sound ? std::clamp(factor, 0.1, 0.9) : 0.25;
-      if (step < settings.smallest_substep) {
-        report.end = failure(model, state, part, settings.tolerance);
-        report.reached = t;
-        return report;
-      }
+    } else if (control.stuck(settings)) {
+      control.report.end = failure(model, state, part, settings.tolerance);
+      return control.report;
     }
   }
-  report.reached = 1;
-  return report;
+  return control.report;
 }
 
 }  // namespace scarp
