@@ -102,18 +102,18 @@ class Subloading {
   /// Eq. 31: the growth of R per ‖dε^p‖.
   template <class T>
   T R_per_strain(const T& R) const {
-    return T(-c_.c_R) * log(max(T(1e-300), (R - T(c_.R_min)) * T(1.0 / (1.0 - c_.R_min))));
+    return T(-c_.c_R) * log(max(T(1e-300), (R - T(c_.R_min)) * T(per_R_span_)));
   }
 
   /// N : x
   template <class T, int N>
   T normal_part(const Image<T, N>& y, const Sym<T, N>& x) const {
-    return T(n_s_) * dot(y.s_bar, deviator(x)) + y.f_p * mean(x);
+    return T(n_s_) * dot(y.s_bar, x) + y.f_p * mean(x);  // s̄ is deviatoric
   }
   /// N : D : dε
   template <class T, int N>
   T elastic_normal_part(const Image<T, N>& y, const Sym<T, N>& deps) const {
-    return T(n_s_) * y.G2 * dot(y.s_bar, deviator(deps)) + y.K * y.f_p * trace(deps);
+    return T(n_s_) * y.G2 * dot(y.s_bar, deps) + y.K * y.f_p * trace(deps);
   }
   /// N : D : G + H, where R changes by R_rate per unit multiplier
   template <class T, int N>
@@ -137,8 +137,8 @@ class Subloading {
   /// sees.
   template <class T, int N>
   T error_norm(const State<T, N>& s, const State<T, N>& e) const {
-    const T scale = T(1.0) / (norm(s.sigma) + T(0.1) * s.p_c);
-    const T pc = e.p_c / s.p_c, rb = e.R_b / s.R_b;
+    const T scale = T(1.0) / (norm(s.sigma) + T(0.1) * s.p_c), inverse = T(1.0) / (s.p_c * s.R_b);
+    const T pc = e.p_c * s.R_b * inverse, rb = e.R_b * s.p_c * inverse;
     return sqrt(scale * scale * (dot(e.sigma, e.sigma) + dot(e.a, e.a)) + dot(e.beta, e.beta) + dot(e.epsp, e.epsp) +
                 pc * pc + rb * rb);
   }
@@ -186,15 +186,22 @@ class Subloading {
 
  private:
   Parameters c_;
-  double g2_;         ///< 2G/K, eq. 27
-  double n_s_, g_s_;  ///< 3/M² and 3/(αM)²
-  double floor_;      ///< of p_c [stress]
+  // Formed once, for a division costs as much as ten products:
+  double g2_;           ///< 2G/K, eq. 27
+  double per_kappa_;    ///< 1/κ̄
+  double n_s_, g_s_;    ///< 3/M² and 3/(αM)²
+  double per_R_span_;   ///< 1/(1 − R_min)
+  double pace_beta_;    ///< c_β/p_atm
+  double per_plastic_;  ///< 1/(λ̄ − κ̄)
+  double p_bond_;       ///< p_e/(1 − ξ)
+  double i2_, per_e_;   ///< 1/α² and 1/(2/α² − 1), of η_β,cs
+  double floor_;        ///< of p_c [stress]
 };
 
 template <class T, int N>
 Subloading::Homothety<T, N> Subloading::homothety(const State<T, N>& s) const {
   Homothety<T, N> h;
-  const double m = 1.5 / (c_.M * c_.M);
+  const double m = 0.5 * n_s_;
   const Sym<T, N> d = s.sigma - s.a;
   h.p_a = mean(s.a);
   h.p_d = mean(d);
@@ -216,12 +223,11 @@ Subloading::Homothety<T, N> Subloading::homothety(const State<T, N>& s) const {
 
 template <class T>
 T Subloading::eta_beta_cs(const T& M_cs) const {
-  const double i2 = 1.0 / (c_.alpha * c_.alpha), e = 2.0 * i2 - 1.0;
-  const T b = T(i2 - 1.0) * M_cs;
+  const T b = T(i2_ - 1.0) * M_cs;
   const T gap = M_cs * M_cs - T(c_.M * c_.M);
-  const T root = sqrt(max(T(0.0), b * b + T(e) * gap));
-  // Two forms of the same root; the second stays finite at α² = 2, where e = 0.
-  const T eta = c_.alpha <= 1.0 ? (b + root) / T(e) : gap / (root - b);
+  const T root = sqrt(max(T(0.0), b * b + T(2.0 * i2_ - 1.0) * gap));
+  // Two forms of the same root; the second stays finite at α² = 2.
+  const T eta = c_.alpha <= 1.0 ? (b + root) * T(per_e_) : gap / (root - b);
   return max(T(0.0), eta);
 }
 
@@ -229,8 +235,8 @@ template <class T, int N>
 Subloading::Image<T, N> Subloading::image(const State<T, N>& s) const {
   Image<T, N> y;
   y.p = mean(s.sigma);
-  y.K = (y.p + T(c_.p_e)) * T(1.0 / c_.kappa);  // eq. 26
-  y.G2 = T(g2_) * y.K;                          // 2G, eq. 27
+  y.K = (y.p + T(c_.p_e)) * T(per_kappa_);  // eq. 26
+  y.G2 = T(g2_) * y.K;                      // 2G, eq. 27
   y.h = homothety(s);
   y.R = max(y.h.R, T(c_.R_min));
   const T u = T(1.0) / y.R;
@@ -252,17 +258,17 @@ Subloading::Image<T, N> Subloading::image(const State<T, N>& s) const {
 template <class T, int N>
 Subloading::Hardening<T, N> Subloading::hardening(const State<T, N>& s, const Image<T, N>& y) const {
   Hardening<T, N> r;
-  const Sym<T, N> s_now = deviator(s.sigma) - y.p * s.beta;
-  const T size = norm(s_now);
-  const T inverse = select(size > T(1e-13) * s.p_c, T(1.0) / size, T(0.0));
-  const T eta = eta_beta_cs(T(c_.M_c) * willam_warnke(cos_3_lode(s_now), c_.k));
-  r.beta = (T(c_.c_beta / c_.p_atm) * y.norm_g_dev * y.p) *
-           (T(0.81649658092772603273) * eta * inverse * s_now - s.beta);  // eq. 32
-  r.R_b = T(c_.c_b) * (T(c_.R_bf) - s.R_b) * y.norm_g;                    // eq. 36
-  const T growth = T(1.0 / (c_.lambda - c_.kappa)) * (s.p_c + s.R_b * T(c_.p_e / (1.0 - c_.xi))) * y.g_p +
-                   s.p_c / s.R_b * r.R_b;  // eq. 37
-  r.p_c = select(s.p_c <= T(floor_), max(T(0.0), growth), growth);
-  r.p_c_relative = r.p_c / s.p_c;
+  const Sym<T, N> s_bar = y.h.S0 + y.h.S1;  // at the current stress
+  const T size = norm(s_bar);
+  const Sym<T, N> direction = select(size > T(1e-13) * s.p_c, T(1.0) / size, T(0.0)) * s_bar;
+  const T eta = eta_beta_cs(T(c_.M_c) * willam_warnke(cos_3_lode_of_unit(direction), c_.k));
+  r.beta = (T(pace_beta_) * y.norm_g_dev * y.p) * (T(0.81649658092772603273) * eta * direction - s.beta);  // eq. 32
+  r.R_b = T(c_.c_b) * (T(c_.R_bf) - s.R_b) * y.norm_g;                                                     // eq. 36
+  // Eq. 37 over p_c, with one division for R_b/p_c and 1/R_b.
+  const T inverse = T(1.0) / (s.p_c * s.R_b);
+  const T growth = T(per_plastic_) * (T(1.0) + s.R_b * s.R_b * inverse * T(p_bond_)) * y.g_p + s.p_c * inverse * r.R_b;
+  r.p_c_relative = select(s.p_c <= T(floor_), max(T(0.0), growth), growth);
+  r.p_c = r.p_c_relative * s.p_c;
   // Eq. 38: σ̄_y − a with c the centre of the yield surface, σ̄_y = σ_y − δ (σ_y − c).
   const T p_centre = T(0.5 - c_.xi) * s.p_c;
   const Sym<T, N> centre = p_centre * s.beta + isotropic<T, N>(p_centre);
@@ -312,8 +318,9 @@ template <class T, int N>
 Notes<T> Subloading::hold_at_floor(State<T, N>& s) const {
   Notes<T> notes;
   notes.on_floor = s.p_c <= T(floor_ * (1.0 + 1e-9));
-  const T scale = select(notes.on_floor, T(floor_) / s.p_c, T(1.0));
   notes.sound = s.p_c > T(0.0);
+  if (!any(notes.on_floor)) return notes;  // as nearly all
+  const T scale = select(notes.on_floor, T(floor_) / s.p_c, T(1.0));
   s.p_c = select(notes.on_floor, T(floor_), s.p_c);
   s.a = scale * s.a;
   return notes;
@@ -324,6 +331,7 @@ void Subloading::part_where_torn(State<T, N>& s, const Mask<T>& exists, Notes<T>
   const T p = mean(s.sigma);
   notes.separated = (p <= T(0.0)) && (notes.on_floor || (p + T(c_.p_e) <= T(0.01 * c_.p_e)));
   notes.sound = notes.sound && (notes.separated || (exists && (p + T(c_.p_e) > T(0.0))));
+  if (!any(notes.separated)) return;
   for (int i = 0; i < N; ++i) {
     s.sigma[i] = select(notes.separated, T(0.0), s.sigma[i]);
     s.a[i] = select(notes.separated, T(0.0), s.a[i]);
@@ -335,8 +343,10 @@ Notes<T> Subloading::accept(State<T, N>& s, double tolerance) const {
   Notes<T> notes = hold_at_floor(s);
   const auto h = homothety(s);
   notes.corrected = h.R > T(1.0 + tolerance);
-  const Sym<T, N> on_surface = s.a + (T(1.0) / h.R) * (s.sigma - s.a);
-  for (int i = 0; i < N; ++i) s.sigma[i] = select(notes.corrected, on_surface[i], s.sigma[i]);
+  if (any(notes.corrected)) {
+    const Sym<T, N> on_surface = s.a + (T(1.0) / h.R) * (s.sigma - s.a);
+    for (int i = 0; i < N; ++i) s.sigma[i] = select(notes.corrected, on_surface[i], s.sigma[i]);
+  }
   part_where_torn(s, h.exists, notes);
   return notes;
 }

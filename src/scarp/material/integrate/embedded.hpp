@@ -38,35 +38,53 @@ struct DormandPrince {
                                            -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
 };
 
-/// One step of a pair. `Step` is an Increment, or whatever a law is driven by that has rate_of(), is_idle() and a
-/// product with a number.
-template <class Pair, class Model, class State, class Step>
-inline auto attempt_pair(const Model& model, const State& s, const Step& step, double tolerance) {
+/// s + Σ w_i k_i over the first changes `k`, in one pass over the components: states are large, and copies of them cost
+/// as much as the law.
+template <class T, class State, std::size_t n, class... Rates>
+inline State combined(const State& s, const std::array<double, n>& w, const Rates&... k) {
+  State r;
+  for_each_component(
+      [&w](auto& x, const auto& y, const auto&... dx) {
+        x = y;
+        [[maybe_unused]] std::size_t i = 0;
+        ((w[i] != 0 ? void(x = x + T(w[i]) * dx) : void(), ++i), ...);
+      },
+      r, s, k.change...);
+  return r;
+}
+
+/// Σ e_i k_i, the estimate of the error.
+template <class Pair, class T, class First, class... Rates>
+inline auto error_of(const First& k0, const Rates&... k) {
+  auto r = k0.change;
+  for_each_component(
+      [](auto& x, const auto&... dx) {
+        x = T(Pair::e[0]) * x;
+        std::size_t i = 1;
+        ((Pair::e[i] != 0 ? void(x = x + T(Pair::e[i]) * dx) : void(), ++i), ...);
+      },
+      r, k.change...);
+  return r;
+}
+
+/// One step of a pair, from the stages `k` that there are already. `Step` is an Increment, or whatever a law is driven
+/// by that has rate_of(), is_idle() and a product with a number.
+template <class Pair, class Model, class State, class Step, class... Rates>
+inline auto attempt_pair(const Model& model, const State& s, const Step& step, double tolerance, const Rates&... k) {
   using T = decltype(model.error_norm(s, s));
-  std::array<State, Pair::stages> k;
-  auto first = rate_of(model, s, step);
-  k[0] = first.change;
-  Mask<T> sound = first.sound;
-  for (std::size_t i = 1; i < Pair::stages; ++i) {
-    State stage = s;
-    for (std::size_t j = 0; j < i; ++j) {
-      if (Pair::a[i][j] != 0) stage = advanced(stage, T(Pair::a[i][j]), k[j]);
-    }
-    auto at = rate_of(model, stage, step);
-    k[i] = at.change;
-    sound = sound && at.sound;
+  constexpr std::size_t done = sizeof...(k);
+  if constexpr (done == 0) {
+    return attempt_pair<Pair>(model, s, step, tolerance, rate_of(model, s, step));
+  } else if constexpr (done < Pair::stages) {
+    const auto next = rate_of(model, combined<T>(s, Pair::a[done], k...), step);
+    return attempt_pair<Pair>(model, s, step, tolerance, k..., next);
+  } else {
+    Trial<State, T> trial{combined<T>(s, Pair::b, k...), T(0.0), {}};
+    trial.error = model.error_norm(trial.state, error_of<Pair, T>(k...));
+    trial.notes = model.accept(trial.state, tolerance);
+    trial.notes.sound = (trial.notes.sound && ... && k.sound);
+    return trial;
   }
-  State next = s, error = k[0];
-  for_each_component([](auto& x) { x = T(Pair::e[0]) * x; }, error);
-  next = advanced(next, T(Pair::b[0]), k[0]);
-  for (std::size_t i = 1; i < Pair::stages; ++i) {
-    if (Pair::b[i] != 0) next = advanced(next, T(Pair::b[i]), k[i]);
-    if (Pair::e[i] != 0) error = advanced(error, T(Pair::e[i]), k[i]);
-  }
-  Trial<State, T> trial{next, model.error_norm(next, error), {}};
-  trial.notes = model.accept(trial.state, tolerance);
-  trial.notes.sound = trial.notes.sound && sound;
-  return trial;
 }
 
 /// The whole increment (a strain, or an Increment) at once: by the law's own update where it has one, else by the pair.
