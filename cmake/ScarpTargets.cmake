@@ -16,6 +16,13 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   # Its AVX-512 intrinsics warn of themselves (GCC bug 105593); clang still checks.
   target_compile_options(scarp_options INTERFACE -Wno-uninitialized -Wno-maybe-uninitialized)
 endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64" AND
+   CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 12)
+  # Copies of states in pieces as wide as a batch (no wider than the processor has): a batch that is read back from
+  # narrower pieces waits for them to reach the cache. On AVX2 the subloading law takes a third less time so; on
+  # AVX-512 it is g++'s own choice.
+  target_compile_options(scarp_options INTERFACE -mmove-max=512 -mstore-max=512)
+endif()
 if(SCARP_NATIVE)
   target_compile_options(scarp_options INTERFACE -march=native)
 endif()

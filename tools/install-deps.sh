@@ -2,6 +2,7 @@
 # Installs the Debian 12 packages that scarp is built with, where one is missing; does nothing where all are there.
 #   tools/install-deps.sh         what building, running and testing need
 #   tools/install-deps.sh --ci    what the checks of .ci/run need as well
+#   tools/install-deps.sh --bench what `make bench` needs as well
 set -eu
 
 packages="
@@ -20,9 +21,10 @@ python3 python3-numpy python3-matplotlib
 "
 case "${1:-}" in
   "") ;;
-  --ci) packages="$packages clang-14 libomp-14-dev clang-format-14 git ninja-build" ;;
+  --ci) packages="$packages libbenchmark-dev clang-14 libomp-14-dev clang-format-14 git ninja-build" ;;
+  --bench) packages="$packages libbenchmark-dev" ;;
   *)
-    echo "usage: tools/install-deps.sh [--ci]" >&2
+    echo "usage: tools/install-deps.sh [--ci | --bench]" >&2
     exit 2
     ;;
 esac

@@ -19,6 +19,13 @@ struct TypesOf<std::variant<Models...>> {
   using type = testing::Types<Models...>;
 };
 
+/// A strain over a time of one unit, in which the laws of samples.hpp that depend on time flow by about a strain of
+/// 1e-4.
+template <class T, int N>
+Increment<T, N> in_time(const Sym<T, N>& deps) {
+  return {deps, T(1.0)};
+}
+
 template <class M>
 class Conformance : public testing::Test {
  public:
@@ -40,7 +47,7 @@ class Conformance : public testing::Test {
     for (int i = 0; i < 10; ++i) {
       auto deps = increment<N>(generator, 2e-4, flat);
       deps[1] += 3e-4;
-      EXPECT_EQ((integrate<DormandPrince>(model_, s, deps, {1e-8, 1e-7}).end), IntegrationEnd::done);
+      EXPECT_EQ((integrate<DormandPrince>(model_, s, in_time(deps), {1e-8, 1e-7}).end), IntegrationEnd::done);
     }
     return s;
   }
@@ -110,7 +117,8 @@ TYPED_TEST(Conformance, ZeroIncrementChangesNothing) {
     EXPECT_EQ(trial.error, 0);
     EXPECT_EQ(components(trial.state), components(before));
   } else {
-    for (double x : components(this->model_.rate(s, Sym<double, 6>::zero()).change)) EXPECT_EQ(x, 0);
+    const auto rate = rate_of(this->model_, s, as_increment(Sym<double, 6>::zero()));
+    for (double x : components(rate.change)) EXPECT_EQ(x, 0);
   }
 }
 
@@ -136,8 +144,8 @@ void expect_objective(Fixture& f, const Spin<double, N>& spin) {
     const auto deps = f.template increment<N>(generator, 1e-4);
     auto turned = s;
     rotate(turned, q);
-    const auto a = attempt<ModifiedEuler>(f.model_, turned, q(deps), 1e-4).state;
-    auto b = attempt<ModifiedEuler>(f.model_, s, deps, 1e-4).state;
+    const auto a = attempt<ModifiedEuler>(f.model_, turned, in_time(q(deps)), 1e-4).state;
+    auto b = attempt<ModifiedEuler>(f.model_, s, in_time(deps), 1e-4).state;
     rotate(b, q);
     EXPECT_LT(relative_difference(a, b), 1e-11);  // rounding of the rotation, amplified by the state's stiffness
   }
@@ -163,8 +171,9 @@ TYPED_TEST(Conformance, FourComponentsAreSixInPlaneStrain) {
         },
         s6, s4);
     const auto deps = this->template increment<4>(generator, 1e-4);
-    s4 = attempt<DormandPrince>(this->model_, s4, deps, 1e-4).state;
-    s6 = attempt<DormandPrince>(this->model_, s6, Sym<double, 6>{{deps[0], deps[1], deps[2], deps[3], 0, 0}}, 1e-4)
+    s4 = attempt<DormandPrince>(this->model_, s4, in_time(deps), 1e-4).state;
+    s6 = attempt<DormandPrince>(this->model_, s6, in_time(Sym<double, 6>{{deps[0], deps[1], deps[2], deps[3], 0, 0}}),
+                                1e-4)
              .state;
     EXPECT_NEAR(s6.sigma[4], 0, 1e-14);
     EXPECT_NEAR(s6.sigma[5], 0, 1e-14);
@@ -192,10 +201,10 @@ void expect_batch_is_double(Fixture& f) {
         ++c;
       },
       many);
-  const auto trial = attempt<ModifiedEuler>(f.model_, many, pack<N>(deps), 1e-4);
+  const auto trial = attempt<ModifiedEuler>(f.model_, many, in_time(pack<N>(deps)), 1e-4);
   const Batch modulus = f.model_.p_wave_modulus(many);
   for (std::size_t i = 0; i < batch_lanes; ++i) {
-    const auto one = attempt<ModifiedEuler>(f.model_, s[i], deps[i], 1e-4);
+    const auto one = attempt<ModifiedEuler>(f.model_, s[i], in_time(deps[i]), 1e-4);
     auto out = one.state;
     for_each_component([&](double& x, const Batch& b) { x = lane(b, i); }, out, trial.state);
     EXPECT_LT(relative_difference(one.state, out), 1e-12);
@@ -245,8 +254,8 @@ template <class Fixture, class State>
   return advanced(trial.state, -1.0, s);
 }
 
-// Rate independence: the change of state is of degree one in the increment. An update() has a finite increment's
-// curvature, of second order, and takes no notice of time.
+// The change of state is of degree one in the increment: of strain, or of strain and time together. An update() has a
+// finite increment's curvature, of second order, and takes no notice of time.
 template <class Fixture, class State>
 void expect_update_is_homogeneous(Fixture& f, const State& s, std::mt19937& generator) {
   constexpr double h = 1e-7;
@@ -272,15 +281,31 @@ void expect_update_is_homogeneous(Fixture& f, const State& s, std::mt19937& gene
 TYPED_TEST(Conformance, RateIsHomogeneousOfDegreeOne) {
   std::mt19937 generator(7);
   const auto s = this->template general_state<6>(7);
-  if constexpr (HasUpdate<TypeParam>)
-    return expect_update_is_homogeneous(*this, s, generator);
-  else
+  if constexpr (HasUpdate<TypeParam>) {
+    expect_update_is_homogeneous(*this, s, generator);
+  } else {
     for (int i = 0; i < 20; ++i) {
       const auto deps = this->template increment<6>(generator, 1e-4);
-      const auto one = components(this->model_.rate(s, deps).change),
-                 three = components(this->model_.rate(s, 3.0 * deps).change);
+      const auto one = components(rate_of(this->model_, s, in_time(deps)).change),
+                 three = components(rate_of(this->model_, s, 3.0 * in_time(deps)).change);
       for (std::size_t c = 0; c < one.size(); ++c) EXPECT_NEAR(three[c], 3 * one[c], 1e-12 * std::abs(three[c]));
     }
+  }
+}
+
+// A law that depends on time flows in a time without strain, unless it is at rest; one that does not, cannot tell.
+TYPED_TEST(Conformance, TimeAloneMattersOnlyToLawsThatDependOnIt) {
+  auto s = this->template general_state<6>(9);
+  const auto before = s;
+  integrate<DormandPrince>(this->model_, s, in_time(Sym<double, 6>::zero()), {1e-8, 1e-9});
+  EXPECT_EQ(components(s) != components(before), TimeDependent<TypeParam>);
+  integrate<DormandPrince>(this->model_, s, Increment<double, 6>{Sym<double, 6>::zero(), 1e6}, {1e-8, 1e-9});
+  const auto rested = components(s);
+  integrate<DormandPrince>(this->model_, s, in_time(Sym<double, 6>::zero()), {1e-8, 1e-9});
+  // What drives a flow dies out like a power of time at worst: a millionth of it is left in a millionth of the time.
+  for (std::size_t c = 0; c < rested.size(); ++c) {
+    EXPECT_NEAR(components(s)[c], rested[c], 2e-6 * std::abs(rested[c]) + 1e-12);
+  }
 }
 
 // Small increments join up with the rate: the integrator and the law mean the same thing.
@@ -290,8 +315,8 @@ TYPED_TEST(Conformance, IncrementsOfHalfTheSizeAgree) {
     auto whole = this->template general_state<6>(static_cast<unsigned>(i));
     auto halves = whole;
     const auto deps = this->template increment<6>(generator, 1e-3);
-    integrate<DormandPrince>(this->model_, whole, deps, {1e-8, 1e-9});
-    for (int k = 0; k < 2; ++k) integrate<DormandPrince>(this->model_, halves, 0.5 * deps, {1e-8, 1e-9});
+    integrate<DormandPrince>(this->model_, whole, in_time(deps), {1e-8, 1e-9});
+    for (int k = 0; k < 2; ++k) integrate<DormandPrince>(this->model_, halves, 0.5 * in_time(deps), {1e-8, 1e-9});
     EXPECT_LT(norm(whole.sigma - halves.sigma), 1e-6 * norm(whole.sigma));  // 1e-8 for each of some ten substeps
   }
 }

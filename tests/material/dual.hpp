@@ -48,6 +48,10 @@ inline Dual sqrt(const Dual& a) {
 inline Dual log(const Dual& a) {
   return Dual(std::log(a.v), a.d / a.v);
 }
+inline Dual exp(const Dual& a) {
+  const double value = std::exp(a.v);
+  return Dual(value, a.d * value);
+}
 inline Dual abs(const Dual& a) {
   return a.v < 0 ? -a : a;
 }

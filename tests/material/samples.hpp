@@ -64,6 +64,11 @@ inline Sample sample(const std::string& model) {
                                            {"epsp_residual", 0.03}};
   if (model == "von-mises" || model == "tresca") return {clay, {}};
   if (model == "mohr-coulomb" || model == "drucker-prager") return {sand, {}};
+  if (model == "viscoplastic-subloading") {
+    auto constants = full_constants();
+    constants.insert({{"mu", 30}, {"n", 2}, {"R_m", 1.6}});
+    return {constants, {{"R_b", 2.5}, {"OCR", 1.6}, {"a", 0.4}, {"beta", "K0"}}};
+  }
   throw std::invalid_argument("add constants and initial values of the model " + model + " to this list");
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scarp/exec/parallel.hpp"
+#include "scarp/material/integrate/lanes.hpp"
 #include "scarp/tensor/batch.hpp"
 
 namespace scarp::exec {
@@ -61,12 +62,20 @@ class Sweep {
 
   StressBooks operator()(int first, int last) {
     StressBooks books;
-    for (int i = first; i < last; i += W) batch(i, std::min(W, last - i), books);
+    Stragglers stragglers;
+    for (int i = first; i < last; i += W) batch(i, std::min(W, last - i), books, stragglers);
+    finish(stragglers, books);
     return books;
   }
 
  private:
-  void batch(int i, int count, StressBooks& books) {
+  /// Points of a chunk whose increment is too large for one substep.
+  struct Stragglers {
+    std::array<int, chunk_points> point;
+    int count = 0;
+  };
+
+  void batch(int i, int count, StressBooks& books, Stragglers& stragglers) {
     const State<Batch> old = load_state(i, count);
     Sym<Batch, N> deps;
     for (int c = 0; c < N; ++c) deps[c] = -load(points_.deps[c], i, count);
@@ -97,25 +106,36 @@ class Sweep {
         record(p, 1, notes, IntegrationEnd::done, books);
         time_step(p, modulus[l], books);
       } else {
-        straggler(p, books);
+        stragglers.point[stragglers.count++] = p;
       }
     }
   }
 
-  /// A point whose increment is too large for one substep, on plain doubles.
-  void straggler(int p, StressBooks& books) {
-    State<double> s = load_state(p);
-    Sym<double, N> deps;
-    for (int c = 0; c < N; ++c) deps[c] = -points_.deps[c][p];
+  /// Each with its own substeps, as many at once as a batch has lanes.
+  void finish(const Stragglers& stragglers, StressBooks& books) {
+    integrate_lanes<ModifiedEuler, Model, N>(
+        model_, stragglers.count, [&](int i) { return turned_point(stragglers.point[i]); },
+        [&](int i, const State<double>& end, const IntegrationReport& report) {
+          const int p = stragglers.point[i];
+          const auto start = turned_point(p);  // the columns still hold the start
+          const Sym<double, N>& deps = start.whole.deps;
+          books.work += points_.weight[p] * points_.volume[p] * (1 + 0.5 * trace(deps)) * 0.5 *
+                        dot(start.state.sigma + end.sigma, deps);
+          store_state(end, p);
+          record(p, report.substeps, report.notes, report.end, books);
+          time_step(p, model_.p_wave_modulus(end), books);
+        },
+        settings_, 0.5);
+  }
+
+  /// The state of a point, turned with the body, and its increment.
+  Task<Model, N> turned_point(int p) const {
+    Task<Model, N> task{load_state(p), {{}, dt_}};
+    for (int c = 0; c < N; ++c) task.whole.deps[c] = -points_.deps[c][p];
     Spin<double, N> spin;
     for (std::size_t c = 0; c < spin.w.size(); ++c) spin.w[c] = points_.spin[c][p];
-    rotate(s, Rotation<double, N>(spin));
-    const Sym<double, N> before = s.sigma;
-    const auto report = integrate<ModifiedEuler>(model_, s, Increment<double, N>{deps, dt_}, settings_, 0.5);
-    store_state(s, p);
-    books.work += points_.weight[p] * points_.volume[p] * (1 + 0.5 * trace(deps)) * 0.5 * dot(before + s.sigma, deps);
-    record(p, report.substeps, report.notes, report.end, books);
-    time_step(p, model_.p_wave_modulus(s), books);
+    rotate(task.state, Rotation<double, N>(spin));
+    return task;
   }
 
   void record(int p, int substeps, const Notes<double>& notes, IntegrationEnd end, StressBooks& books) {

@@ -40,6 +40,8 @@ K0Curve::K0Curve(const AnyModel& any, double vertical, double largest_OCR) {
       [&](const auto& model) {
         if constexpr (requires { model.K0(); }) {
           points_ = {{0.0, model.K0()}};
+        } else if constexpr (requires { model.slow_limit(); }) {
+          *this = K0Curve(model.slow_limit(), vertical, largest_OCR);  // the soil had all the time that it needs
         } else {
           const double largest = vertical * largest_OCR;
           std::vector<Problem> problems;

@@ -8,7 +8,18 @@
 namespace scarp {
 
 Subloading::Subloading(const Parameters& p)
-    : c_(p), g2_(3.0 * (1.0 - 2.0 * p.nu) / (1.0 + p.nu)), floor_(p.p_c_floor * p.p_atm) {}
+    : c_(p),
+      g2_(3.0 * (1.0 - 2.0 * p.nu) / (1.0 + p.nu)),
+      per_kappa_(1.0 / p.kappa),
+      n_s_(3.0 / (p.M * p.M)),
+      g_s_(n_s_ / (p.alpha * p.alpha)),
+      per_R_span_(1.0 / (1.0 - p.R_min)),
+      pace_beta_(p.c_beta / p.p_atm),
+      per_plastic_(1.0 / (p.lambda - p.kappa)),
+      p_bond_(p.p_e / (1.0 - p.xi)),
+      i2_(1.0 / (p.alpha * p.alpha)),
+      per_e_(1.0 / (2.0 * i2_ - 1.0)),
+      floor_(p.p_c_floor * p.p_atm) {}
 
 ModelDescription Subloading::description() {
   const Bound zero{0.0, true}, from_zero{0.0, false}, one{1.0, false}, below_one{1.0, true};
@@ -128,6 +139,7 @@ Subloading::State<double, N> Subloading::initial_state(const Sym<double, N>& sig
       if (const auto t = initial::tensor<N>("beta", *list, problems)) s.beta = *t;
       demand(std::abs(trace(s.beta)) <= 1e-9 * (1.0 + norm(s.beta)), "beta", "beta is deviatoric: xx + yy + zz = 0",
              trace(s.beta), "subtract the mean");
+      s.beta = deviator(s.beta);  // to the last digit, as the law takes it
     } else if (word && *word == "K0") {
       const Sym<double, N> dev = deviator(sigma);
       const double size = norm(dev);

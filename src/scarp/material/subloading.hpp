@@ -72,6 +72,58 @@ class Subloading {
   template <class T, int N>
   Homothety<T, N> homothety(const State<T, N>& s) const;
 
+  /// The image σ_y of the stress on the yield surface, and the directions N = ∂f/∂σ and G = ∂g/∂σ there: deviator
+  /// n_s s̄ and trace f_p, deviator g_s s̄ and trace g_p. Below R_min nothing of it is used: R stays finite in 1/R.
+  template <class T, int N>
+  struct Image {
+    Homothety<T, N> h;
+    T p, K, G2;            ///< of the stress itself: mean, bulk modulus, 2G
+    T R;                   ///< no less than R_min
+    Sym<T, N> from_a;      ///< σ_y − a
+    Sym<T, N> s_bar;       ///< s̄ at σ_y
+    T ss;                  ///< s̄ : s̄
+    T f_p, g_p;            ///< tr N, tr G
+    T norm_g_dev, norm_g;  ///< ‖dev G‖, ‖G‖
+  };
+  template <class T, int N>
+  Image<T, N> image(const State<T, N>& s) const;
+
+  /// Rates of the internal variables per unit plastic multiplier dΛ, dε^p = dΛ G (eqs 32, 36–38).
+  template <class T, int N>
+  struct Hardening {
+    Sym<T, N> beta, a;
+    T p_c, R_b;
+    T p_c_relative;  ///< p_c'/p_c
+    Sym<T, N> pull;  ///< c_a ‖G‖ (σ̄_y − a)
+  };
+  template <class T, int N>
+  Hardening<T, N> hardening(const State<T, N>& s, const Image<T, N>& y) const;
+
+  /// Eq. 31: the growth of R per ‖dε^p‖.
+  template <class T>
+  T R_per_strain(const T& R) const {
+    return T(-c_.c_R) * log(max(T(1e-300), (R - T(c_.R_min)) * T(per_R_span_)));
+  }
+
+  /// N : x
+  template <class T, int N>
+  T normal_part(const Image<T, N>& y, const Sym<T, N>& x) const {
+    return T(n_s_) * dot(y.s_bar, x) + y.f_p * mean(x);  // s̄ is deviatoric
+  }
+  /// N : D : dε
+  template <class T, int N>
+  T elastic_normal_part(const Image<T, N>& y, const Sym<T, N>& deps) const {
+    return T(n_s_) * y.G2 * dot(y.s_bar, deps) + y.K * y.f_p * trace(deps);
+  }
+  /// N : D : G + H, where R changes by R_rate per unit multiplier
+  template <class T, int N>
+  T stiffness(const State<T, N>& s, const Image<T, N>& y, const Hardening<T, N>& r, const T& R_rate) const;
+
+  /// The change `d` of the state for a strain of which dΛ G is plastic.
+  template <class T, int N>
+  void change(const Image<T, N>& y, const Hardening<T, N>& r, const Sym<T, N>& deps, const T& dLambda,
+              State<T, N>& d) const;
+
   template <class T, int N>
   Rate<State<T, N>, T> rate(const State<T, N>& s, const Sym<T, N>& deps) const;
 
@@ -85,14 +137,24 @@ class Subloading {
   /// sees.
   template <class T, int N>
   T error_norm(const State<T, N>& s, const State<T, N>& e) const {
-    const T scale = T(1.0) / (norm(s.sigma) + T(0.1) * s.p_c);
-    const T pc = e.p_c / s.p_c, rb = e.R_b / s.R_b;
+    const T scale = T(1.0) / (norm(s.sigma) + T(0.1) * s.p_c), inverse = T(1.0) / (s.p_c * s.R_b);
+    const T pc = e.p_c * s.R_b * inverse, rb = e.R_b * s.p_c * inverse;
     return sqrt(scale * scale * (dot(e.sigma, e.sigma) + dot(e.a, e.a)) + dot(e.beta, e.beta) + dot(e.epsp, e.epsp) +
                 pc * pc + rb * rb);
   }
 
   template <class T, int N>
   Notes<T> accept(State<T, N>& s, double tolerance) const;
+
+  /// Dilation drives p_c to zero in soil that shears at a free surface; below the floor `a` would lose its yield
+  /// surface.
+  template <class T, int N>
+  Notes<T> hold_at_floor(State<T, N>& s) const;
+
+  /// At the floor the bonds are gone and so is the tensile strength: the point parts from the body, until it is
+  /// compressed. `exists`: the stress has a homothety.
+  template <class T, int N>
+  void part_where_torn(State<T, N>& s, const Mask<T>& exists, Notes<T>& notes) const;
 
   /// K + 4G/3
   template <class T, int N>
@@ -124,14 +186,22 @@ class Subloading {
 
  private:
   Parameters c_;
-  double g2_;     ///< 2G/K, eq. 27
-  double floor_;  ///< of p_c [stress]
+  // Formed once, for a division costs as much as ten products:
+  double g2_;           ///< 2G/K, eq. 27
+  double per_kappa_;    ///< 1/κ̄
+  double n_s_, g_s_;    ///< 3/M² and 3/(αM)²
+  double per_R_span_;   ///< 1/(1 − R_min)
+  double pace_beta_;    ///< c_β/p_atm
+  double per_plastic_;  ///< 1/(λ̄ − κ̄)
+  double p_bond_;       ///< p_e/(1 − ξ)
+  double i2_, per_e_;   ///< 1/α² and 1/(2/α² − 1), of η_β,cs
+  double floor_;        ///< of p_c [stress]
 };
 
 template <class T, int N>
 Subloading::Homothety<T, N> Subloading::homothety(const State<T, N>& s) const {
   Homothety<T, N> h;
-  const double m = 1.5 / (c_.M * c_.M);
+  const double m = 0.5 * n_s_;
   const Sym<T, N> d = s.sigma - s.a;
   h.p_a = mean(s.a);
   h.p_d = mean(d);
@@ -153,108 +223,131 @@ Subloading::Homothety<T, N> Subloading::homothety(const State<T, N>& s) const {
 
 template <class T>
 T Subloading::eta_beta_cs(const T& M_cs) const {
-  const double i2 = 1.0 / (c_.alpha * c_.alpha), e = 2.0 * i2 - 1.0;
-  const T b = T(i2 - 1.0) * M_cs;
+  const T b = T(i2_ - 1.0) * M_cs;
   const T gap = M_cs * M_cs - T(c_.M * c_.M);
-  const T root = sqrt(max(T(0.0), b * b + T(e) * gap));
-  // Two forms of the same root; the second stays finite at α² = 2, where e = 0.
-  const T eta = c_.alpha <= 1.0 ? (b + root) / T(e) : gap / (root - b);
+  const T root = sqrt(max(T(0.0), b * b + T(2.0 * i2_ - 1.0) * gap));
+  // Two forms of the same root; the second stays finite at α² = 2.
+  const T eta = c_.alpha <= 1.0 ? (b + root) * T(per_e_) : gap / (root - b);
   return max(T(0.0), eta);
 }
 
 template <class T, int N>
-Rate<Subloading::State<T, N>, T> Subloading::rate(const State<T, N>& s, const Sym<T, N>& deps) const {
-  const T p = mean(s.sigma);
-  const T K = (p + T(c_.p_e)) * T(1.0 / c_.kappa);  // eq. 26
-  const T G2 = T(g2_) * K;                          // 2G, eq. 27
-  const T de_v = trace(deps);
-  const Sym<T, N> de = deviator(deps);
+Subloading::Image<T, N> Subloading::image(const State<T, N>& s) const {
+  Image<T, N> y;
+  y.p = mean(s.sigma);
+  y.K = (y.p + T(c_.p_e)) * T(per_kappa_);  // eq. 26
+  y.G2 = T(g2_) * y.K;                      // 2G, eq. 27
+  y.h = homothety(s);
+  y.R = max(y.h.R, T(c_.R_min));
+  const T u = T(1.0) / y.R;
+  y.from_a = u * (s.sigma - s.a);
+  y.s_bar = y.h.S0 + u * y.h.S1;
+  const T p_bar = y.h.p_a + u * y.h.p_d + T(c_.xi) * s.p_c;
 
-  // The homothetic image σ_y of σ on the yield surface. Below R_min nothing of it is used: u stays finite.
-  const auto h = homothety(s);
-  const T R = max(h.R, T(c_.R_min));
-  const T u = T(1.0) / R;
-  const Sym<T, N> s_bar = h.S0 + u * h.S1;
-  const T p_bar = h.p_a + u * h.p_d + T(c_.xi) * s.p_c;
-
-  // N = ∂f/∂σ and G = ∂g/∂σ at σ_y, eqs 21–24, 30: deviator n_s s_bar and trace f_p; deviator g_s s_bar and trace g_p.
-  const double n_s = 3.0 / (c_.M * c_.M), g_s = n_s / (c_.alpha * c_.alpha);
-  const T along = dot(s_bar, s.beta);
+  // Eqs 21–24, 30.
+  const T along = dot(y.s_bar, s.beta);
   const T cap = T(2.0) * p_bar - s.p_c;
-  const T f_p = cap - T(n_s) * along, g_p = cap - T(g_s) * along;
-  const T ss = dot(s_bar, s_bar);
-  const T norm_g_dev = T(g_s) * sqrt(ss);
-  const T norm_g = sqrt(norm_g_dev * norm_g_dev + g_p * g_p * T(1.0 / 3.0));
-  const T NDe = T(n_s) * G2 * dot(s_bar, de) + K * f_p * de_v;
-  const T NDG = T(n_s * g_s) * G2 * ss + K * f_p * g_p;
+  y.f_p = cap - T(n_s_) * along;
+  y.g_p = cap - T(g_s_) * along;
+  y.ss = dot(y.s_bar, y.s_bar);
+  y.norm_g_dev = T(g_s_) * sqrt(y.ss);
+  y.norm_g = sqrt(y.norm_g_dev * y.norm_g_dev + y.g_p * y.g_p * T(1.0 / 3.0));
+  return y;
+}
 
-  // Rates of the internal variables per unit plastic multiplier.
-  const T R_rate =
-      T(-c_.c_R) * log(max(T(1e-300), (h.R - T(c_.R_min)) * T(1.0 / (1.0 - c_.R_min)))) * norm_g;  // eq. 31
-  const Sym<T, N> s_now = deviator(s.sigma) - p * s.beta;
-  const T size = norm(s_now);
-  const T inverse = select(size > T(1e-13) * s.p_c, T(1.0) / size, T(0.0));
-  const T eta = eta_beta_cs(T(c_.M_c) * willam_warnke(cos_3_lode(s_now), c_.k));
-  const Sym<T, N> beta_rate = (T(c_.c_beta / c_.p_atm) * norm_g_dev * p) *
-                              (T(0.81649658092772603273) * eta * inverse * s_now - s.beta);  // eq. 32
-  const T b_rate = T(c_.c_b) * (T(c_.R_bf) - s.R_b) * norm_g;                                // eq. 36
-  T pc_rate = T(1.0 / (c_.lambda - c_.kappa)) * (s.p_c + s.R_b * T(c_.p_e / (1.0 - c_.xi))) * g_p +
-              s.p_c / s.R_b * b_rate;  // eq. 37
-  pc_rate = select(s.p_c <= T(floor_), max(T(0.0), pc_rate), pc_rate);
-  const T pc_relative = pc_rate / s.p_c;
+template <class T, int N>
+Subloading::Hardening<T, N> Subloading::hardening(const State<T, N>& s, const Image<T, N>& y) const {
+  Hardening<T, N> r;
+  const Sym<T, N> s_bar = y.h.S0 + y.h.S1;  // at the current stress
+  const T size = norm(s_bar);
+  const Sym<T, N> direction = select(size > T(1e-13) * s.p_c, T(1.0) / size, T(0.0)) * s_bar;
+  const T eta = eta_beta_cs(T(c_.M_c) * willam_warnke(cos_3_lode_of_unit(direction), c_.k));
+  r.beta = (T(pace_beta_) * y.norm_g_dev * y.p) * (T(0.81649658092772603273) * eta * direction - s.beta);  // eq. 32
+  r.R_b = T(c_.c_b) * (T(c_.R_bf) - s.R_b) * y.norm_g;                                                     // eq. 36
+  // Eq. 37 over p_c, with one division for R_b/p_c and 1/R_b.
+  const T inverse = T(1.0) / (s.p_c * s.R_b);
+  const T growth = T(per_plastic_) * (T(1.0) + s.R_b * s.R_b * inverse * T(p_bond_)) * y.g_p + s.p_c * inverse * r.R_b;
+  r.p_c_relative = select(s.p_c <= T(floor_), max(T(0.0), growth), growth);
+  r.p_c = r.p_c_relative * s.p_c;
   // Eq. 38: σ̄_y − a with c the centre of the yield surface, σ̄_y = σ_y − δ (σ_y − c).
-  const Sym<T, N> to_image = u * (s.sigma - s.a);
   const T p_centre = T(0.5 - c_.xi) * s.p_c;
   const Sym<T, N> centre = p_centre * s.beta + isotropic<T, N>(p_centre);
-  const Sym<T, N> pull = (T(c_.c_a) * norm_g) * (to_image - T(c_.delta) * (s.a + to_image - centre));
-  const Sym<T, N> a_rate = pull + pc_relative * s.a + h.p_a * beta_rate;
-
-  // Consistency of f(σ_y) = 0 (f is homogeneous of degree two in σ and p_c):
-  // H = N : [ (p_c'/p_c) σ + p β' + (1 − R) c_a ‖G‖ (σ̄_y − a) + R' (σ_y − a) ]
-  const Sym<T, N> inner = pc_relative * s.sigma + p * beta_rate + (T(1.0) - R) * pull + R_rate * to_image;
-  const T H = T(n_s) * dot(s_bar, deviator(inner)) + f_p * mean(inner);
-
-  const T stiffness = NDG + H;
-  const Mask<T> plastic = (h.R > T(c_.R_min)) && (NDe > T(0.0));  // eq. 28
-  const T dLambda = select(plastic, NDe / stiffness, T(0.0));
-
-  Rate<State<T, N>, T> r;
-  const T shear = dLambda * T(g_s);
-  r.change.epsp = shear * s_bar + isotropic<T, N>(dLambda * g_p * T(1.0 / 3.0));
-  r.change.sigma = G2 * (de - shear * s_bar) + isotropic<T, N>(K * (de_v - dLambda * g_p));  // eq. 25
-  r.change.beta = dLambda * beta_rate;
-  r.change.a = dLambda * a_rate;
-  r.change.p_c = dLambda * pc_rate;
-  r.change.R_b = dLambda * b_rate;
-  r.sound = h.exists && (s.p_c > T(0.0)) && (K > T(0.0)) && ((stiffness > T(0.0)) || !plastic);
+  r.pull = (T(c_.c_a) * y.norm_g) * (y.from_a - T(c_.delta) * (s.a + y.from_a - centre));
+  r.a = r.pull + r.p_c_relative * s.a + y.h.p_a * r.beta;
   return r;
 }
 
 template <class T, int N>
-Notes<T> Subloading::accept(State<T, N>& s, double tolerance) const {
+T Subloading::stiffness(const State<T, N>& s, const Image<T, N>& y, const Hardening<T, N>& r, const T& R_rate) const {
+  const T NDG = T(n_s_ * g_s_) * y.G2 * y.ss + y.K * y.f_p * y.g_p;
+  // Consistency of f(σ_y) = 0 (f is homogeneous of degree two in σ and p_c):
+  // H = N : [ (p_c'/p_c) σ + p β' + (1 − R) c_a ‖G‖ (σ̄_y − a) + R' (σ_y − a) ]
+  const Sym<T, N> inner = r.p_c_relative * s.sigma + y.p * r.beta + (T(1.0) - y.R) * r.pull + R_rate * y.from_a;
+  return NDG + normal_part(y, inner);
+}
+
+template <class T, int N>
+void Subloading::change(const Image<T, N>& y, const Hardening<T, N>& r, const Sym<T, N>& deps, const T& dLambda,
+                        State<T, N>& d) const {
+  const T shear = dLambda * T(g_s_);
+  d.epsp = shear * y.s_bar + isotropic<T, N>(dLambda * y.g_p * T(1.0 / 3.0));
+  d.sigma =
+      y.G2 * (deviator(deps) - shear * y.s_bar) + isotropic<T, N>(y.K * (trace(deps) - dLambda * y.g_p));  // eq. 25
+  d.beta = dLambda * r.beta;
+  d.a = dLambda * r.a;
+  d.p_c = dLambda * r.p_c;
+  d.R_b = dLambda * r.R_b;
+}
+
+template <class T, int N>
+Rate<Subloading::State<T, N>, T> Subloading::rate(const State<T, N>& s, const Sym<T, N>& deps) const {
+  const auto y = image(s);
+  const auto r = hardening(s, y);
+  const T R_rate = R_per_strain(y.h.R) * y.norm_g;
+  const T loading = elastic_normal_part(y, deps), resistance = stiffness(s, y, r, R_rate);
+  const Mask<T> plastic = (y.h.R > T(c_.R_min)) && (loading > T(0.0));  // eq. 28
+  const T dLambda = select(plastic, loading / resistance, T(0.0));
+
+  Rate<State<T, N>, T> result;
+  change(y, r, deps, dLambda, result.change);
+  result.sound = y.h.exists && (s.p_c > T(0.0)) && (y.K > T(0.0)) && ((resistance > T(0.0)) || !plastic);
+  return result;
+}
+
+template <class T, int N>
+Notes<T> Subloading::hold_at_floor(State<T, N>& s) const {
   Notes<T> notes;
-  // Dilation drives p_c to zero in soil that shears at a free surface; below the floor `a` would lose its yield
-  // surface.
   notes.on_floor = s.p_c <= T(floor_ * (1.0 + 1e-9));
-  const T scale = select(notes.on_floor, T(floor_) / s.p_c, T(1.0));
   notes.sound = s.p_c > T(0.0);
+  if (!any(notes.on_floor)) return notes;  // as nearly all
+  const T scale = select(notes.on_floor, T(floor_) / s.p_c, T(1.0));
   s.p_c = select(notes.on_floor, T(floor_), s.p_c);
   s.a = scale * s.a;
+  return notes;
+}
 
-  const auto h = homothety(s);
-  notes.corrected = h.R > T(1.0 + tolerance);
-  const Sym<T, N> image = s.a + (T(1.0) / h.R) * (s.sigma - s.a);
-  for (int i = 0; i < N; ++i) s.sigma[i] = select(notes.corrected, image[i], s.sigma[i]);
-
-  // At the floor the bonds are gone and so is the tensile strength: the point parts from the body, until it is
-  // compressed.
+template <class T, int N>
+void Subloading::part_where_torn(State<T, N>& s, const Mask<T>& exists, Notes<T>& notes) const {
   const T p = mean(s.sigma);
   notes.separated = (p <= T(0.0)) && (notes.on_floor || (p + T(c_.p_e) <= T(0.01 * c_.p_e)));
-  notes.sound = notes.sound && (notes.separated || (h.exists && (p + T(c_.p_e) > T(0.0))));
+  notes.sound = notes.sound && (notes.separated || (exists && (p + T(c_.p_e) > T(0.0))));
+  if (!any(notes.separated)) return;
   for (int i = 0; i < N; ++i) {
     s.sigma[i] = select(notes.separated, T(0.0), s.sigma[i]);
     s.a[i] = select(notes.separated, T(0.0), s.a[i]);
   }
+}
+
+template <class T, int N>
+Notes<T> Subloading::accept(State<T, N>& s, double tolerance) const {
+  Notes<T> notes = hold_at_floor(s);
+  const auto h = homothety(s);
+  notes.corrected = h.R > T(1.0 + tolerance);
+  if (any(notes.corrected)) {
+    const Sym<T, N> on_surface = s.a + (T(1.0) / h.R) * (s.sigma - s.a);
+    for (int i = 0; i < N; ++i) s.sigma[i] = select(notes.corrected, on_surface[i], s.sigma[i]);
+  }
+  part_where_torn(s, h.exists, notes);
   return notes;
 }
 

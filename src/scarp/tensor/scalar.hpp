@@ -29,6 +29,9 @@ inline double sin(double x) {
 inline double cos(double x) {
   return std::cos(x);
 }
+inline double exp(double x) {
+  return std::exp(x);
+}
 inline double abs(double x) {
   return std::fabs(x);
 }

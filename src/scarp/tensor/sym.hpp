@@ -121,6 +121,12 @@ inline T cos_3_lode(const Sym<T, N>& s) {
   return select(vanishes, T(1.0), max(T(-1.0), min(T(1.0), value)));
 }
 
+/// The same of a deviator of norm 1, without a division; 0 of the zero tensor.
+template <class T, int N>
+inline T cos_3_lode_of_unit(const Sym<T, N>& direction) {
+  return max(T(-1.0), min(T(1.0), T(7.3484692283495342946) * det(direction)));  // 3√6
+}
+
 /// Mandel components from plain tensor components xx, yy, zz, xy(, yz, zx), and back.
 template <int N>
 inline Sym<double, N> to_mandel(const std::array<double, N>& t) {

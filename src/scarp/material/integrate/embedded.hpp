@@ -41,35 +41,53 @@ struct DormandPrince {
                                            -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
 };
 
-/// One step of a pair. `Step` is an Increment, or whatever a law is driven by that has rate_of(), is_idle() and a
-/// product with a number.
-template <class Pair, class Model, class State, class Step>
-inline auto attempt_pair(const Model& model, const State& s, const Step& step, double tolerance) {
+/// s + Σ w_i k_i over the first changes `k`, in one pass over the components: states are large, and copies of them cost
+/// as much as the law.
+template <class T, class State, std::size_t n, class... Rates>
+inline State combined(const State& s, const std::array<double, n>& w, const Rates&... k) {
+  State r;
+  for_each_component(
+      [&w](auto& x, const auto& y, const auto&... dx) {
+        x = y;
+        [[maybe_unused]] std::size_t i = 0;
+        ((w[i] != 0 ? void(x = x + T(w[i]) * dx) : void(), ++i), ...);
+      },
+      r, s, k.change...);
+  return r;
+}
+
+/// Σ e_i k_i, the estimate of the error.
+template <class Pair, class T, class First, class... Rates>
+inline auto error_of(const First& k0, const Rates&... k) {
+  auto r = k0.change;
+  for_each_component(
+      [](auto& x, const auto&... dx) {
+        x = T(Pair::e[0]) * x;
+        std::size_t i = 1;
+        ((Pair::e[i] != 0 ? void(x = x + T(Pair::e[i]) * dx) : void(), ++i), ...);
+      },
+      r, k.change...);
+  return r;
+}
+
+/// One step of a pair, from the stages `k` that there are already. `Step` is an Increment, or whatever a law is driven
+/// by that has rate_of(), is_idle() and a product with a number.
+template <class Pair, class Model, class State, class Step, class... Rates>
+inline auto attempt_pair(const Model& model, const State& s, const Step& step, double tolerance, const Rates&... k) {
   using T = decltype(model.error_norm(s, s));
-  std::array<State, Pair::stages> k;
-  auto first = rate_of(model, s, step);
-  k[0] = first.change;
-  Mask<T> sound = first.sound;
-  for (std::size_t i = 1; i < Pair::stages; ++i) {
-    State stage = s;
-    for (std::size_t j = 0; j < i; ++j) {
-      if (Pair::a[i][j] != 0) stage = advanced(stage, T(Pair::a[i][j]), k[j]);
-    }
-    auto at = rate_of(model, stage, step);
-    k[i] = at.change;
-    sound = sound && at.sound;
+  constexpr std::size_t done = sizeof...(k);
+  if constexpr (done == 0) {
+    return attempt_pair<Pair>(model, s, step, tolerance, rate_of(model, s, step));
+  } else if constexpr (done < Pair::stages) {
+    const auto next = rate_of(model, combined<T>(s, Pair::a[done], k...), step);
+    return attempt_pair<Pair>(model, s, step, tolerance, k..., next);
+  } else {
+    Trial<State, T> trial{combined<T>(s, Pair::b, k...), T(0.0), {}};
+    trial.error = model.error_norm(trial.state, error_of<Pair, T>(k...));
+    trial.notes = model.accept(trial.state, tolerance);
+    trial.notes.sound = (trial.notes.sound && ... && k.sound);
+    return trial;
   }
-  State next = s, error = k[0];
-  for_each_component([](auto& x) { x = T(Pair::e[0]) * x; }, error);
-  next = advanced(next, T(Pair::b[0]), k[0]);
-  for (std::size_t i = 1; i < Pair::stages; ++i) {
-    if (Pair::b[i] != 0) next = advanced(next, T(Pair::b[i]), k[i]);
-    if (Pair::e[i] != 0) error = advanced(error, T(Pair::e[i]), k[i]);
-  }
-  Trial<State, T> trial{next, model.error_norm(next, error), {}};
-  trial.notes = model.accept(trial.state, tolerance);
-  trial.notes.sound = trial.notes.sound && sound;
-  return trial;
 }
 
 /// Does the law bring an integration of its own that advances by the pair, update<Pair>(s, increment, tolerance), and
@@ -157,6 +175,63 @@ IntegrationEnd failure(const Model& model, const State& state, const Step& part,
   return solvable ? IntegrationEnd::not_converged : IntegrationEnd::unstable;
 }
 
+/// Order of the error estimate: the pair's, or that of the law's own update.
+template <class Pair, class Model, class State, class Step>
+constexpr double error_order() {
+  constexpr bool own_update = requires(const Model& model, const State& s, const Step& i) {
+    updated(model, s, i, 1e-4);
+  };
+  return own_update && !UpdatesByPair<Model, Pair, State, Step> ? 2 : Pair::order;
+}
+
+/// The step control of one increment: which share of it to try next, and what became of that. Sloan-type: factor
+/// 0.9 (tolerance/error)^(1/order), bounded, and no growth right after a rejection.
+class StepControl {
+ public:
+  StepControl() = default;
+  explicit StepControl(double start) : step_(start) {}
+
+  IntegrationReport report;  ///< but for its end, where stuck()
+
+  bool finished() const { return t_ == 1.0; }
+  /// The last trial was rejected, and the next would be smaller than allowed.
+  bool stuck(const IntegrationSettings& settings) const { return rejected_ && step_ < settings.smallest_substep; }
+
+  /// The share of the increment to try.
+  double next() {
+    step_ = std::min(step_, 1.0 - t_);
+    // A remainder of round-off size would be a substep of its own.
+    if (1.0 - t_ - step_ < 1e-12) step_ = 1.0 - t_;
+    return step_;
+  }
+
+  /// Is the trial good? A NaN error is not.
+  bool judge(double error, const Notes<double>& notes, double tolerance, double order) {
+    const bool good = notes.sound && error <= tolerance;
+    const double ratio = tolerance / std::max(error, 1e-16 * tolerance);
+    const double power = order == 2 ? std::sqrt(ratio) : std::pow(ratio, 1.0 / order);
+    const double factor = std::isfinite(error) ? 0.9 * power : 0.1;
+    if (good) {
+      const bool corrected = report.notes.corrected || notes.corrected;
+      report.notes = notes;
+      report.notes.corrected = corrected;
+      ++report.substeps;
+      t_ = (step_ == 1.0 - t_) ? 1.0 : t_ + step_;
+      step_ *= std::clamp(factor, 0.2, rejected_ ? 1.0 : 5.0);
+    } else {
+      ++report.rejected;
+      step_ *= notes.sound ? std::clamp(factor, 0.1, 0.9) : 0.25;
+    }
+    rejected_ = !good;
+    report.reached = t_;
+    return good;
+  }
+
+ private:
+  double step_ = 1, t_ = 0;
+  bool rejected_ = false;
+};
+
 /// Integrates `state` over an increment (a strain, compression positive, or an Increment), substep by substep. When an
 /// error below the tolerance needs less than the smallest substep, `state` is left at the last accepted one and the
 /// report says how far it came. `start` is the first substep to try, as a share of the increment.
@@ -172,52 +247,29 @@ IntegrationReport integrate(const Model& model, State& state, const Step& increm
     report.notes = model.accept(same, settings.tolerance);
     return report;
   }
-  constexpr bool own_update = requires {
-    updated(model, state, whole, 1e-4);
-  };
-  constexpr bool by_pair = UpdatesByPair<Model, Pair, State, std::decay_t<decltype(whole)>>;
-  constexpr double order = own_update && !by_pair ? 2 : Pair::order;
-  double step = start, t = 0;
-  bool grew_possible = true;
+  constexpr double order = error_order<Pair, Model, State, std::decay_t<decltype(whole)>>();
+  StepControl control(start);
   Doubt doubt(order, settings.tolerance);
-  while (t < 1.0) {
-    step = std::min(step, 1.0 - t);
-    // A remainder of round-off size would be a substep of its own.
-    if (1.0 - t - step < 1e-12) step = 1.0 - t;
+  while (!control.finished()) {
+    const double step = control.next();
     const auto part = step * whole;
     auto trial = attempt<Pair>(model, state, part, settings.tolerance);
-    auto within = [&] { return trial.notes.sound && trial.error <= settings.tolerance; };  // a NaN error is not
     const double estimate = trial.error;
-    const bool doubted = Pair::doubts && within() && doubt.about(estimate, step);
+    const bool seems_good = trial.notes.sound && estimate <= settings.tolerance;
+    const bool doubted = Pair::doubts && seems_good && doubt.about(estimate, step);
     if (doubted) trial = confirmed<Pair>(model, state, part, settings.tolerance, trial);
-    const bool sound = trial.notes.sound, good = within();
-    const double ratio = settings.tolerance / std::max(trial.error, 1e-16 * settings.tolerance);
     // What a doubted substep misses is the kink's: of first order.
-    const double exponent = doubted && !good ? 1.0 : 1.0 / order;
-    const double factor = std::isfinite(trial.error) ? 0.9 * std::pow(ratio, exponent) : 0.1;
-    if (good) {
+    const double judged = doubted && !(trial.error <= settings.tolerance) ? 1 : order;
+    if (control.judge(trial.error, trial.notes, settings.tolerance, judged)) {
       state = trial.state;
-      const bool corrected = report.notes.corrected || trial.notes.corrected;
-      report.notes = trial.notes;
-      report.notes.corrected = corrected;
-      report.substeps += doubted ? 2 : 1;
+      control.report.substeps += doubted;  // both halves count
       doubt.accepted(estimate, step);
-      t = (step == 1.0 - t) ? 1.0 : t + step;
-      step *= std::clamp(factor, 0.2, grew_possible ? 5.0 : 1.0);
-      grew_possible = true;
-    } else {
-      ++report.rejected;
-      grew_possible = false;
-      step *= sound ? std::clamp(factor, 0.1, 0.9) : 0.25;
-      if (step < settings.smallest_substep) {
-        report.end = failure(model, state, part, settings.tolerance);
-        report.reached = t;
-        return report;
-      }
+    } else if (control.stuck(settings)) {
+      control.report.end = failure(model, state, part, settings.tolerance);
+      return control.report;
     }
   }
-  report.reached = 1;
-  return report;
+  return control.report;
 }
 
 }  // namespace scarp

@@ -1,0 +1,244 @@
+// One error-controlled modified Euler update of the full subloading model at many points: what the stress update of a
+// time step costs on one core, in batches and on double. docs/performance.md says how to read the figures.
+#include <benchmark/benchmark.h>
+
+#include <cstddef>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include "scarp/exec/stress_update.hpp"
+#include "scarp/material/integrate/embedded.hpp"
+#include "scarp/material/models.hpp"
+#include "scarp/tensor/batch.hpp"
+
+namespace scarp::bench {
+namespace {
+
+constexpr int points = 1 << 14;
+constexpr double tolerance = 1e-4;
+
+/// Every feature of the model at work [kPa].
+Subloading soil() {
+  const auto made = make_model("subloading", {{"kappa", 0.01},
+                                              {"lambda", 0.1},
+                                              {"nu", 0.25},
+                                              {"p_e", 2},
+                                              {"M", 1.0},
+                                              {"M_c", 1.2},
+                                              {"k", 0.714},
+                                              {"alpha", 0.9},
+                                              {"xi", 0.01},
+                                              {"c_R", 20},
+                                              {"c_beta", 5},
+                                              {"c_b", 5},
+                                              {"c_a", 5},
+                                              {"R_bf", 1},
+                                              {"p_atm", 100}});
+  if (!made.model) throw std::logic_error(made.problems.at(0).what);
+  return std::get<Subloading>(*made.model);
+}
+
+template <class T, int N>
+using State = Subloading::State<T, N>;
+
+/// Points as the material point method stores them: a column for each component.
+template <int N>
+struct Columns {
+  static constexpr int size = state_size<Subloading, N>();
+  std::vector<std::vector<double>> state, deps, spin;
+};
+
+template <class T>
+constexpr int lanes = sizeof(T) / sizeof(double);
+
+template <class T>
+T load(const std::vector<double>& column, int i) {
+  if constexpr (lanes<T> == 1) {
+    return column[static_cast<std::size_t>(i)];
+  } else {
+    return T::load_unaligned(column.data() + i);
+  }
+}
+
+template <class T>
+void store(const T& value, std::vector<double>& column, int i) {
+  if constexpr (lanes<T> == 1) {
+    column[static_cast<std::size_t>(i)] = value;
+  } else {
+    value.store_unaligned(column.data() + i);
+  }
+}
+
+/// A general state, that random strain of the soil has led to.
+template <int N>
+State<double, N> random_state(const Subloading& model, std::mt19937& generator) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform(0, 1);
+  Sym<double, N> sigma = isotropic<double, N>(55.0);
+  sigma[1] = 90 + 20 * uniform(generator);
+  std::vector<Problem> problems;
+  auto s = model.initial_state<N>(
+      sigma, 100, {{"R_b", 2.0}, {"OCR", 1.2 + uniform(generator)}, {"a", 0.5}, {"beta", std::string("K0")}}, problems);
+  for (int k = 0; k < 10; ++k) {
+    Sym<double, N> deps;
+    for (int j = 0; j < N; ++j) deps[j] = 1e-4 * normal(generator);
+    deps[1] += 1e-4;
+    integrate<ModifiedEuler>(model, s, deps, {tolerance, 1e-4});
+  }
+  return s;
+}
+
+/// Points in general states and increments of 1e-5 that take one substep; two in three load plastically.
+template <int N>
+Columns<N> make_points(const Subloading& model) {
+  Columns<N> c;
+  c.state.assign(Columns<N>::size, std::vector<double>(points));
+  c.deps.assign(N, std::vector<double>(points));
+  c.spin.assign(N == 4 ? 1 : 3, std::vector<double>(points));
+  std::mt19937 generator(1);
+  std::normal_distribution<double> normal;
+  for (std::size_t at = 0; at < points;) {
+    const auto s = random_state<N>(model, generator);
+    Sym<double, N> deps;
+    for (int j = 0; j < N; ++j) deps[j] = 1e-5 * normal(generator) + (j == 1 ? 5e-6 : 0.0);
+    const auto trial = attempt<ModifiedEuler>(model, s, deps, tolerance);
+    if (!trial.notes.sound || !(trial.error < 0.5 * tolerance)) continue;
+    std::size_t field = 0;
+    for_each_component([&](const double& x) { c.state[field++][at] = x; }, s);
+    for (std::size_t j = 0; j < N; ++j) c.deps[j][at] = deps[static_cast<int>(j)];
+    for (auto& column : c.spin) column[at] = 1e-5 * normal(generator);
+    ++at;
+  }
+  return c;
+}
+
+template <class T, int N, bool turn>
+void update(benchmark::State& loop) {
+  const Subloading model = soil();
+  const Columns<N> in = make_points<N>(model);
+  Columns<N> out = in;
+  int good_points = 0;
+  for (auto _ : loop) {
+    good_points = 0;
+    for (int i = 0; i < points; i += lanes<T>) {
+      State<T, N> s;
+      std::size_t field = 0;
+      for_each_component([&](T& x) { x = load<T>(in.state[field++], i); }, s);
+      Sym<T, N> deps;
+      for (int j = 0; j < N; ++j) deps[j] = load<T>(in.deps[static_cast<std::size_t>(j)], i);
+      if constexpr (turn) {
+        Spin<T, N> spin;
+        for (std::size_t j = 0; j < spin.w.size(); ++j) spin.w[j] = load<T>(in.spin[j], i);
+        rotate(s, Rotation<T, N>(spin));
+      }
+      const auto trial = attempt<ModifiedEuler>(model, s, deps, tolerance);
+      const auto good = trial.notes.sound && (trial.error <= T(tolerance));
+      const auto end = select_state(good, trial.state, s);
+      field = 0;
+      for_each_component([&](const T& x) { store(x, out.state[field++], i); }, end);
+      good_points += all(good) ? lanes<T> : 0;
+    }
+    benchmark::ClobberMemory();
+  }
+  if (good_points < points) loop.SkipWithError("an increment needs more than one substep");
+  loop.counters["ns_per_point"] =
+      benchmark::Counter(points, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+/// The points in a block of the material point method, tension positive, with increments of which every sixteenth needs
+/// `substeps` substeps.
+Block<2> make_block(const Subloading& model, int substeps) {
+  const Columns<4> c = make_points<4>(model);
+  Block<2> block("bench", model);
+  resize(block, points);
+  auto& p = block.points;
+  for (std::size_t j = 0; j < 4; ++j) p.sigma[j] = c.state[j];
+  for (std::size_t j = 0; j < block.state.size(); ++j) block.state[j] = c.state[j + 4];
+  for (std::size_t j = 0; j < 4; ++j) p.deps[j] = c.deps[j];
+  p.spin[0] = c.spin[0];
+  p.mass.assign(points, 1.0);
+  p.volume.assign(points, 1.0);
+  p.weight.assign(points, 1.0);
+  for (auto& column : p.sigma)
+    for (double& x : column) x = -x;
+  for (auto& column : p.deps)
+    for (double& x : column) x = -x;
+  for (std::size_t i = 0; i < points && substeps > 1; i += 16) {
+    exec::with_state(block, static_cast<int>(i), [&](const auto& law, const auto& state) {
+      Sym<double, 4> deps;
+      for (std::size_t j = 0; j < 4; ++j) deps[static_cast<int>(j)] = -p.deps[j][i];
+      int taken = 0;
+      double factor = 1;
+      for (; taken < substeps && factor < 1e4; factor *= 1.1) {
+        auto s = state;
+        taken = integrate<ModifiedEuler>(law, s, factor * deps, {tolerance, 1e-4}, 0.5).substeps;
+      }
+      for (std::size_t j = 0; j < 4; ++j) p.deps[j][i] *= factor / 1.1;
+    });
+  }
+  return block;
+}
+
+/// The stress update of a time step: rotation, update, stragglers apart, work, critical time step.
+void sweep(benchmark::State& loop) {
+  const Block<2> start = make_block(soil(), static_cast<int>(loop.range(0)));
+  Block<2> block = start;
+  const std::vector<double> element_size(1, 1.0);
+  double substeps = 0;
+  for (auto _ : loop) {
+    loop.PauseTiming();
+    block.points.sigma = start.points.sigma;
+    block.state = start.state;
+    loop.ResumeTiming();
+    const auto books = exec::update_stresses(block, 1e-3, element_size, {tolerance, 1e-4});
+    if (books.failures > 0) loop.SkipWithError("an update failed");
+    substeps = static_cast<double>(books.substeps);
+  }
+  loop.counters["substeps"] = substeps / points;
+  loop.counters["ns_per_point"] =
+      benchmark::Counter(points, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+/// The same increments point by point on double: rotation and update alone.
+void one_by_one(benchmark::State& loop) {
+  const Subloading model = soil();
+  const Block<2> start = make_block(model, static_cast<int>(loop.range(0)));
+  std::vector<State<double, 4>> states(points), ends(points);
+  std::vector<Sym<double, 4>> deps(points);
+  for (int i = 0; i < points; ++i) {
+    exec::with_state(start, i, [&](const auto&, const auto& s) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(s)>, State<double, 4>>)
+        states[static_cast<std::size_t>(i)] = s;
+    });
+    for (int j = 0; j < 4; ++j) {
+      deps[static_cast<std::size_t>(i)][j] =
+          -start.points.deps[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)];
+    }
+  }
+  double substeps = 0;
+  for (auto _ : loop) {
+    substeps = 0;
+    for (std::size_t i = 0; i < points; ++i) {
+      ends[i] = states[i];
+      rotate(ends[i], Rotation<double, 4>(Spin<double, 4>{{start.points.spin[0][i]}}));
+      substeps += integrate<ModifiedEuler>(model, ends[i], deps[i], {tolerance, 1e-4}).substeps;
+    }
+    benchmark::ClobberMemory();
+  }
+  loop.counters["substeps"] = substeps / points;
+  loop.counters["ns_per_point"] =
+      benchmark::Counter(points, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+BENCHMARK(update<Batch, 4, false>)->Name("law/batch/plane_strain");
+BENCHMARK(update<double, 4, false>)->Name("law/double/plane_strain");
+BENCHMARK(update<Batch, 6, false>)->Name("law/batch/3D");
+BENCHMARK(update<double, 6, false>)->Name("law/double/3D");
+BENCHMARK(update<Batch, 4, true>)->Name("law/batch/plane_strain/turned");
+BENCHMARK(update<Batch, 6, true>)->Name("law/batch/3D/turned");
+BENCHMARK(sweep)->Name("sweep/batch")->Arg(1)->Arg(10);
+BENCHMARK(one_by_one)->Name("sweep/double")->Arg(1)->Arg(10);
+
+}  // namespace
+}  // namespace scarp::bench
