@@ -13,13 +13,14 @@
 #include "scarp/material/neo_hookean.hpp"
 #include "scarp/material/subloading.hpp"
 #include "scarp/material/tresca.hpp"
+#include "scarp/material/umat.hpp"
 #include "scarp/material/von_mises.hpp"
 
 namespace scarp {
 
 /// A model with its constants; dispatched once per block of points.
 using AnyModel = std::variant<LinearElastic, Subloading, NeoHookean, ModifiedCamClay, VonMises, Tresca, MohrCoulomb,
-                              DruckerPrager>;
+                              DruckerPrager, Umat>;
 
 /// Descriptions of all models, in the order of the list.
 std::vector<ModelDescription> model_descriptions();
