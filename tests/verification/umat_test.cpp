@@ -1,5 +1,5 @@
-// The material point method on a law from a shared library, against the same law built in, and the tensors of its state
-// under rotation: everything from the case file on.
+// The material point method and the laboratory on a law from a shared library, against the same law built in, and the
+// tensors of its state under rotation: everything from the case file on.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -14,6 +14,8 @@
 #include "scarp/base/error.hpp"
 #include "scarp/exec/stress_update.hpp"
 #include "scarp/input/case.hpp"
+#include "scarp/input/lab_test.hpp"
+#include "scarp/lab/driver.hpp"
 #include "scarp/run/build.hpp"
 #include "scarp/run/fields.hpp"
 
@@ -56,6 +58,16 @@ name = "sway"
 duration = 1.0
 )";
     return input::read_case((path_ / "case.toml").string());
+  }
+
+  lab::Test read_lab(const std::string& material, const std::string& stages) const {
+    std::ofstream(path_ / "path.csv")
+        << "eps_xx,eps_yy,eps_zz,eps_xy,eps_yz,eps_zx\n0.001,0.002,-0.001,0.003,0.001,0.002\n"
+           "0.002,-0.001,0.003,0.001,0.004,-0.005\n";
+    std::ofstream(path_ / "test.toml") << "[material]\n"
+                                       << material << "[initial]\nstress = [50.0, 50.0, 50.0, 0.0, 0.0, 0.0]\n"
+                                       << stages;
+    return input::read_lab_test((path_ / "test.toml").string()).test;
   }
 
  private:
@@ -177,6 +189,49 @@ TEST(UmatInTheMpm, XitEndsTheRunWithItsMessage) {
   }
 }
 
+/// The rows of a curve, and the place of its columns.
+struct Curve {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;
+
+  double at(std::size_t row, const std::string& name) const {
+    return rows[row][static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin())];
+  }
+};
+
+Curve curve_of(const std::string& material, const std::string& stages) {
+  const CaseFolder folder;
+  const auto test = folder.read_lab(material, stages);
+  Curve curve{lab::curve_columns(test.model), {}};
+  lab::run_test(test, [&](const std::vector<double>& row) { curve.rows.push_back(row); });
+  for (const auto& row : curve.rows) EXPECT_EQ(row.size(), curve.columns.size());
+  return curve;
+}
+
+/// Largest difference of stress between the elastic UMAT and the built-in law.
+double difference_of_curves(const std::string& stages) {
+  const auto a = curve_of(built_in, stages), b = curve_of(elastic("elastic_c"), stages);
+  EXPECT_EQ(a.rows.size(), b.rows.size());
+  double worst = 0;
+  for (std::size_t row = 0; row < a.rows.size(); ++row) {
+    for (const char* component : lab::component_names) {
+      const std::string name = std::string("sig_") + component;
+      worst = std::max(worst, std::abs(a.at(row, name) - b.at(row, name)));
+    }
+  }
+  return worst;
+}
+
+TEST(UmatInTheLaboratory, ElasticIsTheBuiltInLaw) {
+  // Rounding of some 50 kPa.
+  EXPECT_LT(difference_of_curves("[[stage]]\ntype = \"strain-path\"\nfile = \"path.csv\"\nduration = 1.0\n"), 1e-12);
+  // A law with an update meets constraints at the end of an increment, to 1e-8 of the stress and of what the strain
+  // does.
+  EXPECT_LT(difference_of_curves("[[stage]]\ntype = \"triaxial-undrained\"\neps_a = [0.01, -0.01]\ncycles = 2\n"
+                                 "increments = 10\nduration = 1.0\n"),
+            1e-6);
+}
+
 #ifdef SCARP_FORTRAN_UMATS
 TEST(UmatInTheMpm, ElasticInFortranIsTheBuiltInLaw) {
   EXPECT_LT(difference_of_runs(built_in, elastic("elastic_f")), 1e-11);
@@ -236,6 +291,25 @@ TEST(UmatInTheMpm, TensorStateTurnsWithThePoints) {
   }
 }
 
+// Drained triaxial compression. Closed form, with ε_a = q/E + ε_p and q = σ_y + H ε_p: q = (σ_y + H ε_a)/(1 + H/E). The
+// cell pressure is constant, and the state of the routine stands in columns under its names.
+TEST(UmatInTheLaboratory, KinematicHardeningInTriaxialCompression) {
+  auto material = kinematic;
+  material.replace(material.find(", initial = [1.0, 2.0, -3.0, 4.0]"), 33, "");
+  const auto curve = curve_of(material,
+                              "[[stage]]\ntype = \"triaxial-drained\"\neps_a = 0.1\nincrements = 20\n"
+                              "duration = 10.0\n");
+  ASSERT_EQ(curve.rows.size(), 20u);
+  for (std::size_t row = 9; row < 20; ++row) {
+    const double q = (60 + 300 * curve.at(row, "eps_zz")) / (1 + 300.0 / 2e3), ep = (q - 60) / 300;
+    EXPECT_NEAR(curve.at(row, "q"), q, 1e-5);  // constraints to 1e-8 of stress, and of 2e3 kPa times strain
+    EXPECT_NEAR(curve.at(row, "sig_xx"), 50, 1e-5);
+    EXPECT_NEAR(curve.at(row, "epsp_eq"), ep, 1e-7);
+    EXPECT_NEAR(curve.at(row, "alpha_zz"), -2.0 / 3 * 300 * ep, 1e-5);  // signs of the UMAT
+    EXPECT_NEAR(curve.at(row, "epsp_zz"), -ep, 1e-7);
+    EXPECT_NEAR(curve.at(row, "umat_time"), 0.5 * (static_cast<double>(row) + 1), 1e-9);
+  }
+}
 #endif
 
 }  // namespace

@@ -13,10 +13,19 @@ namespace {
 
 /// Names that columns of curves and fields of frames have already.
 const std::set<std::string>& taken_names() {
-  static const std::set<std::string> names{
-      "id",       "region",    "stage",  "displacement", "velocity", "stress", "sig",        "eps",         "p",
-      "q",        "theta",     "eps_v",  "eps_q",        "u",        "volume", "density",    "substeps",    "separated",
-      "on_floor", "corrected", "failed", "strain",       "time",     "R",      "increments", "wave_modulus"};
+  static const std::set<std::string> names{"id",          "region",
+                                           "stage",       "displacement",
+                                           "velocity",    "stress",
+                                           "sig",         "eps",
+                                           "p",           "q",
+                                           "theta",       "eps_v",
+                                           "eps_q",       "u",
+                                           "volume",      "density",
+                                           "time",        "substeps",
+                                           "separated",   "on_floor",
+                                           "corrected",   "failed",
+                                           "umat_strain", "umat_stiffness",
+                                           "umat_time",   "umat_increments"};
   return names;
 }
 
@@ -136,10 +145,10 @@ ModelDescription Umat::description() {
         Bound{0.0, true},
         {},
         1.0}},
-      {{"strain", "STRAN", "-", "total strain that turns with the body", FieldKind::tensor},
-       {"wave_modulus", "K + 4G/3", "stress", "stiffness for the critical time step", FieldKind::scalar},
-       {"time", "TIME(2)", "s", "time that the point has seen", FieldKind::scalar},
-       {"increments", "KINC - 1", "-", "increments that the routine has seen", FieldKind::scalar}},
+      {{"umat_strain", "STRAN", "-", "total strain that turns with the body", FieldKind::tensor},
+       {"umat_stiffness", "K + 4G/3", "stress", "stiffness for the critical time step", FieldKind::scalar},
+       {"umat_time", "TIME(2)", "s", "time that the point has seen", FieldKind::scalar},
+       {"umat_increments", "KINC - 1", "-", "increments that the routine has seen", FieldKind::scalar}},
       {},
       {},
       {{"library", SettingKind::text, "text", "shared library, from the folder of the case file", true},
