@@ -22,6 +22,7 @@ inline double expm1(double x) {
 }
 inline double log1p(double x) {
   return std::log1p(x);
+}
 inline double sin(double x) {
   return std::sin(x);
 }
