@@ -6,7 +6,7 @@
 set -eu
 
 packages="
-g++ cmake make
+g++ gfortran cmake make
 libgomp1
 libtomlplusplus-dev
 libcli11-dev

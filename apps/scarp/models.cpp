@@ -70,6 +70,13 @@ void print_model(const ModelDescription& model) {
                     info.meaning});
   }
   print_table(rows);
+  if (!model.settings.empty()) {
+    fmt::print("\nother keys of the material (key, holds, needed, meaning)\n");
+    rows.clear();
+    for (const auto& info : model.settings)
+      rows.push_back({info.key, info.takes, info.required ? "required" : "-", info.meaning});
+    print_table(rows);
+  }
   print_fields("state (key, symbol, unit, kind, meaning; compression positive)", model.state);
   print_fields("derived", model.derived);
   if (model.initial.empty()) return;

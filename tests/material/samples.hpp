@@ -26,8 +26,9 @@ inline std::map<std::string, double> cam_clay_constants() {
 }
 
 /// The model, or an exception that says which constant it did not take.
-inline AnyModel made(const std::string& name, const std::map<std::string, double>& values) {
-  auto result = make_model(name, values);
+inline AnyModel made(const std::string& name, const std::map<std::string, double>& values,
+                     const Values& settings = {}) {
+  auto result = make_model(name, values, settings);
   if (!result.model) throw std::invalid_argument(result.problems.at(0).key + ": " + result.problems.at(0).what);
   return *result.model;
 }
@@ -41,6 +42,7 @@ inline Subloading subloading(std::map<std::string, double> values, const std::ma
 struct Sample {
   std::map<std::string, double> constants;
   Values initial;
+  Values settings = {};
 };
 
 inline Sample sample(const std::string& model) {
@@ -68,6 +70,11 @@ inline Sample sample(const std::string& model) {
     auto constants = full_constants();
     constants.insert({{"mu", 30}, {"n", 2}, {"R_m", 1.6}});
     return {constants, {{"R_b", 2.5}, {"OCR", 1.6}, {"a", 0.4}, {"beta", "K0"}}};
+  }
+  if (model == "umat") {  // the elastic one in C
+    return {{{"wave_modulus", 0}, {"celent", 1}},
+            {},
+            {{"library", SCARP_UMATS "/elastic_c.so"}, {"constants", std::vector<double>{2e4, 0.3}}}};
   }
   throw std::invalid_argument("add constants and initial values of the model " + model + " to this list");
 }

@@ -82,7 +82,7 @@ class Sweep {
     Spin<Batch, N> spin;
     for (std::size_t c = 0; c < spin.w.size(); ++c) spin.w[c] = load(points_.spin[c], i, count);
     State<Batch> turned = old;
-    rotate(turned, Rotation<Batch, N>(spin));
+    rotate(model_, turned, Rotation<Batch, N>(spin));
 
     const auto trial =
         attempt<ModifiedEuler>(model_, turned, Increment<Batch, N>{deps, Batch(dt_)}, settings_.tolerance);
@@ -134,7 +134,7 @@ class Sweep {
     for (int c = 0; c < N; ++c) task.whole.deps[c] = -points_.deps[c][p];
     Spin<double, N> spin;
     for (std::size_t c = 0; c < spin.w.size(); ++c) spin.w[c] = points_.spin[c][p];
-    rotate(task.state, Rotation<double, N>(spin));
+    rotate(model_, task.state, Rotation<double, N>(spin));
     return task;
   }
 
@@ -162,10 +162,13 @@ class Sweep {
 
   State<Batch> load_state(int i, int count) const {
     State<Batch> s;
+    const int columns = state_columns<N>(model_);
     int c = 0;
     for_each_component(
         [&](Batch& x) {
-          x = c < N ? -load(points_.sigma[c], i, count) : load(block_.state[c - N], i, count);
+          x = c < N             ? -load(points_.sigma[c], i, count)
+              : c - N < columns ? load(block_.state[c - N], i, count)
+                                : Batch(0.0);
           ++c;
         },
         s);
@@ -173,12 +176,13 @@ class Sweep {
   }
 
   void store_state(const State<Batch>& s, int i, int count) {
+    const int columns = state_columns<N>(model_);
     int c = 0;
     for_each_component(
         [&](const Batch& x) {
           if (c < N) {
             store(-x, points_.sigma[c], i, count);
-          } else {
+          } else if (c - N < columns) {
             store(x, block_.state[c - N], i, count);
           }
           ++c;
@@ -195,10 +199,15 @@ class Sweep {
   }
 
   void store_state(const State<double>& s, int p) {
+    const int columns = state_columns<N>(model_);
     int c = 0;
     for_each_component(
         [&](double x) {
-          (c < N ? points_.sigma[c][p] : block_.state[c - N][p]) = c < N ? -x : x;
+          if (c < N) {
+            points_.sigma[c][p] = -x;
+          } else if (c - N < columns) {
+            block_.state[c - N][p] = x;
+          }
           ++c;
         },
         s);

@@ -43,10 +43,11 @@ void with_state(const Block<Dim>& block, int i, F&& f) {
       [&]<class Model>(const Model& model) {
         constexpr int N = sym_size<Dim>;
         typename Model::template State<double, N> s;
+        const int columns = state_columns<N>(model);
         int c = 0;
         for_each_component(
             [&](double& x) {
-              x = c < N ? -block.points.sigma[c][i] : block.state[c - N][i];
+              x = c < N ? -block.points.sigma[c][i] : c - N < columns ? block.state[c - N][i] : 0.0;
               ++c;
             },
             s);

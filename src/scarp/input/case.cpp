@@ -183,7 +183,8 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
   result.mesh = read_mesh(table.need("mesh", "add [mesh] with a file or a grid"), path);
   if (const Node* method = table.find("method")) result.method = read_method(*method);
   if (const Node* output = table.find("output")) result.output = read_output(*output);
-  result.materials = read_all<MaterialInput>(table, "material", "the soil", read_material);
+  result.materials = read_all<MaterialInput>(table, "material", "the soil",
+                                             [&](const Node& node) { return read_material(node, path); });
   result.regions = read_all<RegionInput>(table, "region", "where the soil is",
                                          [&](const Node& node) { return read_region(node, result.materials); });
   result.boundaries = read_all<BoundaryInput>(table, "boundary", "", read_boundary);

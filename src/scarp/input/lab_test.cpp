@@ -219,7 +219,7 @@ LabTest read_lab_test(const std::string& path, const std::vector<std::string>& o
   const std::string title = table.text_or("title", path);
   Table material(table.need("material", "add [material] with model and its constants"), "[material]");
   material.find("name");
-  lab::Test test{read_law(material), {}, {}, lab::Scheme::dormand_prince, 1e-7, {}};
+  lab::Test test{read_law(material, path), {}, {}, lab::Scheme::dormand_prince, 1e-7, {}};
   material.finish();
   read_initial_state(table.need("initial", "add [initial] with stress = [...]"), test);
   read_integration(table, test);

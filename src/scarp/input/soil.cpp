@@ -2,6 +2,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
 #include "scarp/base/log.hpp"
 #include "scarp/input/readers.hpp"
 
@@ -11,6 +15,19 @@ namespace {
 [[noreturn]] void refuse(const Problem& problem, const std::map<std::string, Position>& places, const Position& table) {
   const auto found = places.find(problem.key);
   throw InputError(problem.what, problem.value, problem.remedy, found == places.end() ? table : found->second);
+}
+
+std::string capitals(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// The description of the model called `name`; empty where there is none.
+ModelDescription description_of_kind(const std::string& name) {
+  for (auto& description : model_descriptions()) {
+    if (description.name == name) return description;
+  }
+  return {};
 }
 
 /// One value of a region's initial state: a number, a word or a list of numbers.
@@ -23,10 +40,36 @@ Value value_of(const Node& node, const std::string& key) {
                    "see `scarp models` for what it takes", node.position);
 }
 
+/// A setting of a model, of any kind that a file can hold; the model says whether it is the right one.
+Value setting_of(const Node& node, const std::string& key, SettingKind kind) {
+  const auto* list = std::get_if<List>(&node.value);
+  if (!list || kind != SettingKind::records) return value_of(node, key);
+  std::vector<Record> records;
+  for (const auto& item : *list) {
+    Table table(item, "a table of " + key);
+    Record record;
+    for (const auto& [name, value] : table.rest()) record.keys[name] = value_of(*value, name);
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
+/// Names of files are relative to the folder of `file`; a material's own name stands in where a model asks for one.
+void complete_settings(Values& settings, const ModelDescription& model, Table& table, const std::string& file) {
+  for (const auto& info : model.settings) {
+    const Node* name = table.find("name");
+    if (info.key == "cmname" && name && !settings.contains(info.key))
+      settings[info.key] = capitals(text_in(*name, "name")).substr(0, 80);
+    if (info.key != "library" || !settings.contains(info.key)) continue;
+    if (auto* path = std::get_if<std::string>(&settings[info.key]))
+      *path = (std::filesystem::path(file).parent_path() / *path).string();
+  }
+}
+
 }  // namespace
 
 Values read_initial(Table& table, const AnyModel& model, std::map<std::string, Position>& places) {
-  const auto description = std::visit([]<class Model>(const Model&) { return Model::description(); }, model);
+  const auto description = description_of(model);
   Values values;
   std::set<std::string> known;
   for (const auto& info : description.initial) known.insert(info.key);
@@ -45,13 +88,21 @@ Values read_initial(Table& table, const AnyModel& model, std::map<std::string, P
   return values;
 }
 
-AnyModel read_law(Table& table) {
+AnyModel read_law(Table& table, const std::string& file) {
   const Node& model = table.need("model", "add model = \"subloading\", for instance; `scarp models` lists them");
   const std::string model_name = text_in(model, "model");
+  const auto description = description_of_kind(model_name);
   std::map<std::string, double> values;
+  Values settings;
   std::map<std::string, Position> places{{"model", model.position}};
   for (const auto& [key, item] : table.rest()) {
     places[key] = item->position;
+    const auto setting = std::find_if(description.settings.begin(), description.settings.end(),
+                                      [&key = key](const auto& info) { return info.key == key; });
+    if (setting != description.settings.end()) {
+      settings[key] = setting_of(*item, key, setting->kind);
+      continue;
+    }
     // Its bounds are the model's; make_model() checks that it is finite, too.
     const auto* number = std::get_if<double>(&item->value);
     if (!number)
@@ -59,7 +110,8 @@ AnyModel read_law(Table& table) {
                        item->position);
     values[key] = *number;
   }
-  auto result = make_model(model_name, values);
+  complete_settings(settings, description, table, file);
+  auto result = make_model(model_name, values, settings);
   if (!result.problems.empty()) refuse(result.problems.front(), places, table.position());
   for (const auto& warning : result.warnings) {
     const auto found = places.find(warning.key);
@@ -70,11 +122,11 @@ AnyModel read_law(Table& table) {
   return *result.model;
 }
 
-MaterialInput read_material(const Node& node) {
+MaterialInput read_material(const Node& node, const std::string& case_path) {
   Table table(node, "[[material]]");
   std::string name = table.text("name", "add name = \"clay\", for instance");
   const double density = table.number("density", positive, "add the density of the soil, such as density = 1.8");
-  return {std::move(name), read_law(table), density, node.position};
+  return {std::move(name), read_law(table, case_path), density, node.position};
 }
 
 RegionInput read_region(const Node& node, const std::vector<MaterialInput>& materials) {

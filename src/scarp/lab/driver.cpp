@@ -114,7 +114,7 @@ void add_tensor(std::vector<std::string>& columns, const std::string& key) {
 }  // namespace
 
 std::vector<std::string> curve_columns(const AnyModel& model) {
-  const auto description = std::visit([]<class Model>(const Model&) { return Model::description(); }, model);
+  const auto description = description_of(model);
   std::vector<std::string> columns{"stage", "time"};
   add_tensor(columns, "eps");
   add_tensor(columns, "sig");

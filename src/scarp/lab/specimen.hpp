@@ -1,6 +1,7 @@
 // A specimen in the laboratory: the state of one stress point, taken further by strain or by constraints.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -31,7 +32,9 @@ class Specimen {
 
  public:
   Specimen(const Model& model, const Soil& soil, const IntegrationSettings& settings, Scheme scheme)
-      : model_(model), settings_(settings), scheme_(scheme), soil_(soil) {}
+      : model_(model), settings_(settings), scheme_(scheme), soil_(soil) {
+    for (const auto& field : description_of(model).state) fields_.push_back(field.kind);
+  }
 
   const Soil& soil() const { return soil_; }
   const Sym<double, 6>& eps() const { return eps_; }
@@ -96,19 +99,20 @@ class Specimen {
                      deviatoric_strain(eps_), u()})
       all.push_back(x);
     for (double x : model_.derived(soil_)) all.push_back(x);
-    bool sigma = true;
-    Soil::each(
-        [&](const auto& x) {
-          if constexpr (!is_sym<std::decay_t<decltype(x)>>::value) all.push_back(x);
-        },
-        soil_);
-    Soil::each(
-        [&](const auto& x) {
-          if constexpr (is_sym<std::decay_t<decltype(x)>>::value) {
-            if (!std::exchange(sigma, false)) add(all, x);
-          }
-        },
-        soil_);
+    std::vector<double> state;  // sigma, and the fields of the description in its order
+    for_each_component([&](const double& x) { state.push_back(x); }, soil_);
+    for (const FieldKind wanted : {FieldKind::scalar, FieldKind::tensor}) {
+      std::size_t at = 6;
+      for (const FieldKind kind : fields_) {
+        if (kind == wanted && kind == FieldKind::scalar) all.push_back(state[at]);
+        if (kind == wanted && kind == FieldKind::tensor) {
+          Sym<double, 6> tensor;
+          std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(at), 6, tensor.c.begin());
+          add(all, tensor);
+        }
+        at += kind == FieldKind::tensor ? 6 : 1;
+      }
+    }
     return all;
   }
 
@@ -252,6 +256,7 @@ class Specimen {
   const Model& model_;
   IntegrationSettings settings_;
   Scheme scheme_;
+  std::vector<FieldKind> fields_;  ///< of the state
   Soil soil_;
   Sym<double, 6> eps_ = Sym<double, 6>::zero();
   double time_ = 0;

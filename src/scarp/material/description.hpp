@@ -11,9 +11,18 @@
 
 namespace scarp {
 
-/// A number, a word, or a list of numbers: what a key in an input file may hold.
-using Value = std::variant<double, std::string, std::vector<double>>;
+struct Record;
+
+/// A number, a word, a list of numbers or a list of tables: what a key in an input file may hold.
+using Value = std::variant<double, std::string, std::vector<double>, std::vector<Record>>;
 using Values = std::map<std::string, Value>;
+
+/// One table of a list.
+struct Record {
+  Values keys;
+
+  bool operator==(const Record& other) const { return keys == other.keys; }
+};
 
 struct Bound {
   double value;
@@ -29,6 +38,18 @@ struct ParameterInfo {
   std::optional<Bound> low, high;
   std::optional<double> standard;  ///< used where the key is left out; without it the key is required
   std::string standard_key = {};   ///< or: the value of that constant is used
+};
+
+/// What a setting holds: the alternatives of Value, in their order.
+enum class SettingKind { number, text, numbers, records };
+
+/// One key of a material that is not a plain number, such as the name of a file. Few models have some.
+struct SettingInfo {
+  std::string key;
+  SettingKind kind;
+  std::string takes;  ///< e.g. "text", "list of numbers"
+  std::string meaning;
+  bool required;
 };
 
 enum class FieldKind { scalar, tensor };  ///< a tensor turns with the body
@@ -56,6 +77,7 @@ struct ModelDescription {
   std::vector<FieldInfo> state;    ///< without the stress
   std::vector<FieldInfo> derived;  ///< functions of the state that users want to see, e.g. R
   std::vector<InitialInfo> initial;
+  std::vector<SettingInfo> settings = {};  ///< beside `parameters`
 };
 
 /// A constant or an initial value that the model cannot take. `key` names the input key it stands under.

@@ -27,11 +27,14 @@ inline Increment<T, N> as_increment(const Increment<T, N>& i) {
   return i;
 }
 
-/// Does the law depend on time?
+/// Does the law depend on time? It shows in rate(), or a law with an update of its own says so.
 template <class Model>
 concept TimeDependent = requires(const Model& m, const typename Model::template State<double, 6>& s,
                                  const Increment<double, 6>& i) {
   m.rate(s, i.deps, i.dt);
+}
+|| requires {
+  requires Model::depends_on_time;
 };
 
 /// Does the law bring an integration of its own?

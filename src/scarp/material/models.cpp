@@ -1,6 +1,7 @@
 #include "scarp/material/models.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 #include <utility>
@@ -22,6 +23,13 @@ std::string bounds_text(const ParameterInfo& info) {
   text += info.key;
   if (info.high) text += fmt::format(" {} {}", info.high->open ? "<" : "<=", info.high->value);
   return text;
+}
+
+/// A value as messages show it.
+std::string text_of(const Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) return fmt::format("the number {}", *number);
+  if (const auto* text = std::get_if<std::string>(&value)) return fmt::format("the text \"{}\"", *text);
+  return std::holds_alternative<std::vector<double>>(value) ? "a list of numbers" : "a list of tables";
 }
 
 bool within(const ParameterInfo& info, double x) {
@@ -71,7 +79,49 @@ std::map<std::string, double> checked(const ModelDescription& model, const std::
   return full;
 }
 
+/// Settings that are missing, unknown or of another kind become problems.
+void check_settings(const ModelDescription& model, const Values& settings, std::vector<Problem>& problems) {
+  for (const auto& info : model.settings) {
+    const auto found = settings.find(info.key);
+    const auto wanted = static_cast<std::size_t>(info.kind);
+    if (found == settings.end()) {
+      if (info.required) {
+        problems.push_back(
+            {info.key, fmt::format("the key {} ({}) of the model {} is missing", info.key, info.meaning, model.name),
+             "", fmt::format("add {} = ..., a {}", info.key, info.takes)});
+      }
+    } else if (found->second.index() != wanted) {
+      problems.push_back({info.key, fmt::format("{} is a {}", info.key, info.takes), text_of(found->second),
+                          fmt::format("{}: {}", info.key, info.meaning)});
+    }
+  }
+  for (const auto& [key, value] : settings) {
+    const auto is_key = [&key = key](const auto& info) { return info.key == key; };
+    if (std::any_of(model.settings.begin(), model.settings.end(), is_key)) continue;
+    const bool number = std::any_of(model.parameters.begin(), model.parameters.end(), is_key);
+    problems.push_back(
+        {key, number ? fmt::format("{} is a number", key) : fmt::format("the model {} has no key {}", model.name, key),
+         text_of(value), fmt::format("`scarp models {}` lists its keys", model.name)});
+  }
+}
+
+/// Takes out the numbers that stand where the model has a setting of another kind.
+void refuse_numbers(const ModelDescription& model, std::map<std::string, double>& values,
+                    std::vector<Problem>& problems) {
+  for (const auto& info : model.settings) {
+    const auto found = values.find(info.key);
+    if (found == values.end()) continue;
+    problems.push_back({info.key, fmt::format("{} is a {}", info.key, info.takes), text_of(found->second),
+                        fmt::format("{}: {}", info.key, info.meaning)});
+    values.erase(found);
+  }
+}
+
 }  // namespace
+
+ModelDescription description_of(const AnyModel& any) {
+  return std::visit([](const auto& model) { return description_of(model); }, any);
+}
 
 std::vector<ModelDescription> model_descriptions() {
   std::vector<ModelDescription> all;
@@ -79,7 +129,7 @@ std::vector<ModelDescription> model_descriptions() {
   return all;
 }
 
-ModelResult make_model(const std::string& name, const std::map<std::string, double>& values) {
+ModelResult make_model(const std::string& name, const std::map<std::string, double>& values, const Values& settings) {
   ModelResult result;
   std::string names;
   bool known = false;
@@ -89,10 +139,18 @@ ModelResult make_model(const std::string& name, const std::map<std::string, doub
     names += (names.empty() ? "" : ", ") + description.name;
     if (description.name != name) return;
     known = true;
-    const auto full = checked(description, values, result.problems);
+    auto numbers = values;
+    refuse_numbers(description, numbers, result.problems);
+    const auto full = checked(description, numbers, result.problems);
+    check_settings(description, settings, result.problems);
     if (!result.problems.empty()) return;
-    auto made = Model::from_values(full, result.problems, result.warnings);
-    if (result.problems.empty()) result.model = std::move(made);
+    std::optional<Model> made;
+    if constexpr (requires { Model::from_values(full, settings, result.problems, result.warnings); }) {
+      made = Model::from_values(full, settings, result.problems, result.warnings);
+    } else {
+      made = Model::from_values(full, result.problems, result.warnings);
+    }
+    if (result.problems.empty()) result.model = std::move(*made);
   });
   if (!known) {
     result.problems.push_back({"model", "there is no such model", '"' + name + '"', "choose one of " + names});

@@ -13,6 +13,7 @@
 #include "scarp/material/neo_hookean.hpp"
 #include "scarp/material/subloading.hpp"
 #include "scarp/material/tresca.hpp"
+#include "scarp/material/umat.hpp"
 #include "scarp/material/viscoplastic_subloading.hpp"
 #include "scarp/material/von_mises.hpp"
 
@@ -20,18 +21,32 @@ namespace scarp {
 
 /// A model with its constants; dispatched once per block of points.
 using AnyModel = std::variant<LinearElastic, Subloading, ViscoplasticSubloading, NeoHookean, ModifiedCamClay, VonMises,
-                              Tresca, MohrCoulomb, DruckerPrager>;
+                              Tresca, MohrCoulomb, DruckerPrager, Umat>;
 
 /// Descriptions of all models, in the order of the list.
 std::vector<ModelDescription> model_descriptions();
 
-/// The model called `name` with constants from `values`. On a bad, unknown or missing constant, or an unknown name
-/// (Problem::key "model"), the result is the list of problems; warnings do not prevent a result.
+/// The description of a model with its constants: that of its kind, and what only its constants say (the state of an
+/// umat). Input and output of a material go by this one.
+template <class Model>
+ModelDescription description_of(const Model& model) {
+  if constexpr (requires { model.own_description(); }) {
+    return model.own_description();
+  } else {
+    return Model::description();
+  }
+}
+ModelDescription description_of(const AnyModel& model);
+
+/// The model called `name` with constants from `values`, and with settings where it has some. On a bad, unknown or
+/// missing key, or an unknown name (Problem::key "model"), the result is the list of problems; warnings do not prevent
+/// a result.
 struct ModelResult {
   std::optional<AnyModel> model;
   std::vector<Problem> problems;
   std::vector<Problem> warnings;
 };
-ModelResult make_model(const std::string& name, const std::map<std::string, double>& values);
+ModelResult make_model(const std::string& name, const std::map<std::string, double>& values,
+                       const Values& settings = {});
 
 }  // namespace scarp

@@ -17,6 +17,8 @@
 //   p_wave_modulus(s)     K + 4G/3 of the present stiffness
 //   initial_state(...)    the state for an initial stress and the region's keys
 //   derived(s)            quantities for output, in the order of the description
+// A model whose state only its constants tell (umat) also has state_columns<N>(), rotate_own(s, turn) and
+// own_description().
 // T is double or a SIMD batch, N 4 (plane strain) or 6 components. Models have no mutable members.
 #pragma once
 
@@ -97,11 +99,30 @@ inline void rotate(State& s, const Rotation<T, N>& turn) {
       s);
 }
 
+/// The same for the state of a model that keeps tensors as columns of numbers, beside members that are tensors.
+/// Wherever a model is at hand, turn with this one.
+template <class Model, class State, class T, int N>
+inline void rotate(const Model& model, State& s, const Rotation<T, N>& turn) {
+  rotate(s, turn);
+  if constexpr (requires { model.rotate_own(s, turn); }) model.rotate_own(s, turn);
+}
+
 /// Number of scalar components of a model's state, sigma included.
 template <class Model, int N>
 constexpr int state_size() {
   using State = typename Model::template State<double, N>;
   return static_cast<int>(sizeof(State) / sizeof(double));
+}
+
+/// Number of scalar components without sigma that are in use: what is kept of a point. A model may leave some at the
+/// end of its state unused.
+template <int N, class Model>
+constexpr int state_columns(const Model& model) {
+  if constexpr (requires { model.template state_columns<N>(); }) {
+    return model.template state_columns<N>();
+  } else {
+    return state_size<Model, N>() - N;
+  }
 }
 
 }  // namespace scarp

@@ -51,9 +51,8 @@ struct Block {
   Block(std::string region, const AnyModel& law)
       : name(std::move(region)),
         model(law),
-        state(std::visit(
-            []<class M>(const M&) { return static_cast<std::size_t>(state_size<M, sym_size<Dim>>() - sym_size<Dim>); },
-            law)) {}
+        state(
+            std::visit([](const auto& m) { return static_cast<std::size_t>(state_columns<sym_size<Dim>>(m)); }, law)) {}
 
   std::string name;
   AnyModel model;

@@ -93,17 +93,13 @@ class Collector {
   std::vector<io::Field> fields_;
 };
 
-ModelDescription description_of(const Block<2>& block) {
-  return std::visit([]<class Model>(const Model&) { return Model::description(); }, block.model);
-}
-
 void Collector::model_fields() {
   // For each declared name: where each block keeps it (column of the state), or -1.
   std::map<std::string, std::pair<FieldKind, std::vector<int>>> state;
   std::map<std::string, std::vector<int>> derived;
   const std::vector<int> nowhere(body_.blocks.size(), -1);
   for (std::size_t b = 0; b < body_.blocks.size(); ++b) {
-    const auto description = description_of(body_.blocks[b]);
+    const auto description = description_of(body_.blocks[b].model);
     int column = 0;
     for (const auto& info : description.state) {
       auto& entry = state.try_emplace(info.key, info.kind, nowhere).first->second;

@@ -25,12 +25,13 @@ struct InitialStress {
 
 template <class State>
 void store(Block<2>& block, int i, const State& state) {
+  const int columns = static_cast<int>(block.state.size());
   int c = 0;
   for_each_component(
       [&](const double& value) {
         if (c < 4) {
           block.points.sigma[c][i] = -value;
-        } else {
+        } else if (c - 4 < columns) {
           block.state[c - 4][i] = value;
         }
         ++c;

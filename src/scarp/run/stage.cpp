@@ -86,7 +86,8 @@ class Clock {
 std::string end_text(IntegrationEnd end) {
   switch (end) {
     case IntegrationEnd::unstable:
-      return "the material is unstable there (N:D:G + H is not positive)";
+      return "its law has no answer there: the material is unstable (N:D:G + H is not positive), or a value is not "
+             "finite";
     case IntegrationEnd::inadmissible:
       return "its state is not admissible";
     default:

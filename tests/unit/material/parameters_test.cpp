@@ -17,7 +17,7 @@ bool names(const std::vector<Problem>& problems, const std::string& key) {
 void expect_refused(const ModelDescription& model, const std::string& key, double value) {
   auto constants = sample(model.name).constants;
   constants[key] = value;
-  const auto result = make_model(model.name, constants);
+  const auto result = make_model(model.name, constants, sample(model.name).settings);
   EXPECT_FALSE(result.model) << model.name << ' ' << key << " = " << value;
   ASSERT_TRUE(names(result.problems, key)) << model.name << ' ' << key << " = " << value;
   EXPECT_FALSE(result.problems.front().what.empty());
@@ -28,13 +28,13 @@ void expect_refused(const ModelDescription& model, const std::string& key, doubl
 void expect_within_bounds(const ModelDescription& model, const std::string& key, double value) {
   auto constants = sample(model.name).constants;
   constants[key] = value;
-  for (const auto& problem : make_model(model.name, constants).problems)
+  for (const auto& problem : make_model(model.name, constants, sample(model.name).settings).problems)
     EXPECT_EQ(problem.what.find("must satisfy"), std::string::npos) << key << " = " << value << ": " << problem.what;
 }
 
 TEST(Parameters, SamplesAreValid) {
   for (const auto& model : model_descriptions()) {
-    const auto result = make_model(model.name, sample(model.name).constants);
+    const auto result = make_model(model.name, sample(model.name).constants, sample(model.name).settings);
     EXPECT_TRUE(result.model) << model.name;
     EXPECT_TRUE(result.problems.empty());
     EXPECT_TRUE(result.warnings.empty());
@@ -106,7 +106,7 @@ TEST(Parameters, WithoutAStandardValueAKeyIsRequired) {
         if (!other.standard_key.empty()) constants.erase(other.key);
       constants.erase(info.key);
       const bool standard = info.standard || !info.standard_key.empty();
-      const auto result = make_model(model.name, constants);
+      const auto result = make_model(model.name, constants, sample(model.name).settings);
       EXPECT_EQ(result.model.has_value(), standard) << info.key;
       EXPECT_EQ(names(result.problems, info.key), !standard) << info.key;
     }
@@ -143,6 +143,41 @@ TEST(Parameters, UnknownNamesAreProblems) {
   const auto result = make_model("subloding", full_constants());
   ASSERT_TRUE(names(result.problems, "model"));
   EXPECT_NE(result.problems.front().remedy.find("subloading"), std::string::npos);
+}
+
+/// Expects `key` to be refused under its name, with a part of the reason and of the value found.
+void expect_setting_refused(const std::string& model, const std::map<std::string, double>& constants,
+                            const Values& settings, const Problem& expected) {
+  const auto result = make_model(model, constants, settings);
+  EXPECT_FALSE(result.model) << expected.key;
+  ASSERT_FALSE(result.problems.empty());
+  const auto& problem = result.problems.front();
+  EXPECT_EQ(problem.key, expected.key);
+  EXPECT_NE(problem.what.find(expected.what), std::string::npos) << problem.what;
+  EXPECT_NE(problem.value.find(expected.value), std::string::npos) << problem.value;
+  EXPECT_NE(problem.remedy.find(expected.remedy), std::string::npos) << problem.remedy;
+}
+
+TEST(Parameters, SettingsHaveTheirKind) {
+  auto some = sample("umat").settings;
+  some["library"] = 3.0;
+  expect_setting_refused("umat", {}, some, {"library", "library is a text", "the number 3", "library: "});
+  some = sample("umat").settings;
+  some["constants"] = "1, 2";
+  expect_setting_refused("umat", {}, some, {"constants", "is a list of numbers", "the text \"1, 2\"", "PROPS"});
+  expect_setting_refused("umat", {}, {}, {"library", "is missing", "", "add library = ..., a text"});
+  expect_setting_refused("umat", {{"library", 3}}, {}, {"library", "library is a text", "the number 3", "library: "});
+}
+
+TEST(Parameters, ATextForANumberIsRefused) {
+  auto constants = full_constants();
+  constants.erase("nu");
+  const auto problems = make_model("subloading", constants, {{"nu", "0.3"}, {"file", "a"}}).problems;
+  EXPECT_TRUE(names(problems, "nu") && names(problems, "file"));
+  const auto at =
+      std::find_if(problems.begin(), problems.end(), [](const Problem& p) { return p.value == "the text \"0.3\""; });
+  ASSERT_NE(at, problems.end());
+  EXPECT_EQ(at->what, "nu is a number");
 }
 
 TEST(Parameters, EveryProblemIsNamedAtOnce) {

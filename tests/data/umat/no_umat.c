@@ -1,0 +1,4 @@
+/* A shared library that holds no UMAT. */
+int nothing(void) {
+  return 0;
+}
