@@ -122,7 +122,7 @@ TEST(RigidRotation, TurnsStressBetaAndCentreWithTheBody) {
         transfer::nodes_to_points<Q4>(x_i, {}, v_i, 1.0, *points, range);
       }
     }
-    exec::update_stresses(block, body.mesh->size, {});
+    exec::update_stresses(block, 0.0, body.mesh->size, {});
   }
   const auto sigma_exact = turned(sigma, angle), beta_exact = turned(beta, angle), a_exact = turned(a, angle);
   for (int p = 0; p < block.size(); ++p) {
