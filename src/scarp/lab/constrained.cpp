@@ -29,9 +29,9 @@ Vector6 solve_scaled(const Matrix6& J, const Vector6& b) {
   return solver.solve(rhs);
 }
 
-bool is_rounding(const Vector6& residual, const ConstraintMatrices& c, const Vector6& eps, const Vector6& sigma,
+bool is_rounding(const Vector6& residual, const ConstraintMatrices& c, const Vector6& eps, double stress,
                  const Vector6& b) {
-  const Vector6 size = c.E.rowwise().norm() * eps.norm() + c.S.rowwise().norm() * sigma.norm() + b.cwiseAbs();
+  const Vector6 size = c.E.rowwise().norm() * eps.norm() + c.S.rowwise().norm() * stress + b.cwiseAbs();
   return ((residual.cwiseAbs() - 1e-11 * size).array() <= 0).all();
 }
 

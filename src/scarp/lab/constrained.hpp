@@ -41,7 +41,7 @@ struct ConstraintMatrices {
 Vector6 solve_scaled(const Matrix6& J, const Vector6& b);
 
 /// Is `residual` nothing but rounding beside the terms it is the sum of?
-bool is_rounding(const Vector6& residual, const ConstraintMatrices& c, const Vector6& eps, const Vector6& sigma,
+bool is_rounding(const Vector6& residual, const ConstraintMatrices& c, const Vector6& eps, double stress,
                  const Vector6& b);
 
 /// A share of an increment of a stage.
@@ -108,13 +108,20 @@ class Constrained {
       const Vector6 sigma = as_vector(at.change.sigma);
       const Vector6 residual = c_.E * d + c_.S * sigma - b_;
       if (!residual.allFinite()) return {};
-      if (is_rounding(residual, c_, d, sigma, b_)) {
+      if (is_rounding(residual, c_, d, stress_size(soil, d, sigma), b_)) {
         if (at.sound) return d;
         return {};
       }
       d -= solve_scaled(c_.E + c_.S * tangent(soil, d, sigma), residual);
     }
     return {};
+  }
+
+  /// What the rounding of σ̇ is measured by. Creep of a law that depends on time has σ̇ = 0 as the difference of elastic
+  /// stresses that are not.
+  double stress_size(const Soil& soil, const Vector6& d, const Vector6& sigma) const {
+    if constexpr (TimeDependent<Model>) return std::max(sigma.norm(), model_.p_wave_modulus(soil) * d.norm());
+    return sigma.norm();
   }
 
   /// ∂σ̇/∂ε̇ by differences, exact but for rounding on a linear branch.

@@ -59,8 +59,9 @@ class ViscoplasticSubloading {
   /// ‖ε̇^vp‖ [1/time]
   template <class T>
   T flow(const T& overstress, const T& R) const {
-    const T x = max(T(1e-300), overstress);  // n ≥ 1: to that power it is nothing
-    return T(1.0 / c_.mu) * exp(T(c_.n) * log(x)) / max(T(1e-12), T(c_.R_m) - R);
+    const T power = exp(T(c_.n) * log(max(T(1e-300), overstress)));
+    const T drive = select(power > T(1e-100), power, T(0.0));  // nothing, below what a norm can square
+    return T(1.0 / c_.mu) * drive / max(T(1e-12), T(c_.R_m) - R);
   }
 
   template <class T, int N>

@@ -165,6 +165,31 @@ TEST(NamedTests, CreepAndRelaxationOfASoilWithoutTimeDoNothing) {
   }
 }
 
+// Held at a stress below its strength, a soil of the viscoplastic law creeps ever more slowly and comes to rest.
+TEST(NamedTests, CreepOfASoilWithTimeEnds) {
+  auto constants = scarp::test::full_constants();
+  constants.insert({{"mu", 100}, {"n", 1}, {"R_m", 1.5}});
+  auto loading = named("triaxial-drained", "q", {50}, 10);
+  loading.duration = 1;
+  Constraints held;
+  for (const auto& test : named_tests()) {
+    if (test.type == "creep") std::copy(test.held.begin(), test.held.end(), held.forms.begin());
+  }
+  auto test = clay({loading, {"creep", held, 10, 1e4, {}}});
+  test.model = made("viscoplastic-subloading", constants);
+  const auto curve = run(test);
+  ASSERT_EQ(curve.problem, "");
+  const auto& eps = curve["eps_zz"];
+  const std::size_t start = curve.rows - 11;  // where the creep starts
+  EXPECT_GT(eps[start + 1], eps[start] * 1.01);
+  for (std::size_t i = start + 1; i < curve.rows; ++i) {
+    EXPECT_NEAR(curve["sig_zz"][i], curve["sig_zz"][start], 1e-6);
+    EXPECT_GE(eps[i], eps[i - 1] - 1e-12);
+  }
+  EXPECT_NEAR(curve.last("eps_zz"), eps[curve.rows - 2], 1e-9);
+  EXPECT_NEAR(curve.last("R"), curve.last("R_s"), 1e-9);
+}
+
 // Hooke's law: E of uniaxial stress, the constrained modulus, G; large increments in one.
 TEST(Constrained, ElasticModuli) {
   const double E = 2e4, nu = 0.3, G = E / (2 * (1 + nu));

@@ -66,6 +66,7 @@ inline Notes<double> lane_of(const Notes<Batch>& notes, std::size_t lane) {
 template <class Pair, class Model, int N, class GetTask, class Done>
 void integrate_lanes(const Model& model, int count, GetTask&& task, Done&& done, const IntegrationSettings& settings,
                      double start) {
+  static_assert(!Pair::doubts, "lanes do not confirm doubted substeps");
   if (count == 0) return;
   constexpr double order = error_order<Pair, Model, typename Lanes<Model, N>::Points, Increment<Batch, N>>();
   std::array<int, batch_lanes> who;
