@@ -63,6 +63,20 @@ void cells(Piece& piece, std::span<const std::int64_t> connectivity, std::span<c
   piece.close("Cells");
 }
 
+/// VTK's number of a cell type; its local nodes run as ours do.
+std::uint8_t cell_type(ElementType type) {
+  switch (type) {
+    case ElementType::T3:
+      return 5;
+    case ElementType::Q4:
+      return 9;
+    case ElementType::T4:
+      return 10;
+    default:
+      return 12;
+  }
+}
+
 }  // namespace
 
 void write_points_vtu(const std::string& path, std::span<const double> positions, std::span<const Field> fields) {
@@ -97,20 +111,34 @@ void write_points_vtu(const std::string& path, std::span<const double> positions
   write_whole(path, piece.file());
 }
 
-void write_mesh_vtu(const std::string& path, const Mesh<2>& mesh) {
+template <int Dim>
+std::vector<double> three_coordinates(const std::array<std::vector<double>, Dim>& columns) {
+  std::vector<double> positions(3 * columns[0].size(), 0.0);
+  for (int k = 0; k < Dim; ++k)
+    for (std::size_t p = 0; p < columns[k].size(); ++p) positions[3 * p + k] = columns[k][p];
+  return positions;
+}
+
+template <int Dim>
+void write_mesh_vtu(const std::string& path, const Mesh<Dim>& mesh) {
   Piece piece(mesh.nodes.size(), mesh.types.size());
-  std::vector<double> positions;
-  for (const auto& x : mesh.nodes) positions.insert(positions.end(), {x[0], x[1], 0.0});
+  std::vector<double> positions(3 * mesh.nodes.size(), 0.0);
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    for (int k = 0; k < Dim; ++k) positions[3 * n + k] = mesh.nodes[n][k];
   piece.open("Points");
   piece.array("Points", 3, std::span<const double>(positions));
   piece.close("Points");
   const std::vector<std::int64_t> connectivity(mesh.connectivity.begin(), mesh.connectivity.end());
   const std::vector<std::int64_t> offsets(mesh.offsets.begin() + 1, mesh.offsets.end());
-  constexpr std::uint8_t triangle = 5, quadrilateral = 9;
   std::vector<std::uint8_t> types;
-  for (const auto type : mesh.types) types.push_back(type == ElementType::T3 ? triangle : quadrilateral);
+  for (const auto type : mesh.types) types.push_back(cell_type(type));
   cells(piece, connectivity, offsets, types);
   write_whole(path, piece.file());
 }
+
+template std::vector<double> three_coordinates<2>(const std::array<std::vector<double>, 2>&);
+template std::vector<double> three_coordinates<3>(const std::array<std::vector<double>, 3>&);
+template void write_mesh_vtu(const std::string&, const Mesh<2>&);
+template void write_mesh_vtu(const std::string&, const Mesh<3>&);
 
 }  // namespace scarp::io

@@ -1,6 +1,7 @@
 // VTK XML files of unstructured grids (.vtu), appended raw binary: what ParaView reads.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -23,7 +24,13 @@ struct Field {
 /// fails or a field does not have components × points values.
 void write_points_vtu(const std::string& path, std::span<const double> positions, std::span<const Field> fields);
 
-/// Writes the mesh: triangles and quadrilaterals.
-void write_mesh_vtu(const std::string& path, const Mesh<2>& mesh);
+/// Positions as write_points_vtu() takes them, from one column for each axis: three coordinates a point, z = 0 in the
+/// plane.
+template <int Dim>
+std::vector<double> three_coordinates(const std::array<std::vector<double>, Dim>& columns);
+
+/// Writes the mesh: triangles and quadrilaterals, or tetrahedra and hexahedra.
+template <int Dim>
+void write_mesh_vtu(const std::string& path, const Mesh<Dim>& mesh);
 
 }  // namespace scarp::io

@@ -94,14 +94,17 @@ void read_section(Scanner& file, const std::string& name, bool version4, Content
 
 }  // namespace
 
-Mesh<2> read_gmsh(const std::string& path) {
-  return parse_gmsh(path, read_file(path));
+template <int Dim>
+Mesh<Dim> read_gmsh(const std::string& path) {
+  return parse_gmsh<Dim>(path, read_file(path));
 }
 
-Mesh<2> parse_gmsh(const std::string& name, std::string bytes) {
+template <int Dim>
+Mesh<Dim> parse_gmsh(const std::string& name, std::string bytes) {
   Scanner file(name, std::move(bytes));
   const bool version4 = read_format(file);
   Contents contents;
+  contents.dimension = Dim;
   std::set<std::string> seen;
   while (file.skip_space()) {
     const std::size_t where = file.here();
@@ -123,7 +126,12 @@ Mesh<2> parse_gmsh(const std::string& name, std::string bytes) {
     if (!seen.contains(needed))
       file.fail(fmt::format("the file has no section ${}", needed), "",
                 "the file is cut short or holds no mesh; write it again with Gmsh", file.here());
-  return gmsh::to_mesh(file, std::move(contents));
+  return gmsh::to_mesh<Dim>(file, std::move(contents));
 }
+
+template Mesh<2> read_gmsh(const std::string&);
+template Mesh<3> read_gmsh(const std::string&);
+template Mesh<2> parse_gmsh(const std::string&, std::string);
+template Mesh<3> parse_gmsh(const std::string&, std::string);
 
 }  // namespace scarp

@@ -25,25 +25,29 @@ struct Node {
 struct Element {
   Tag tag;
   ElementType type;
-  std::array<Tag, 4> nodes;
+  std::array<Tag, 8> nodes;
   std::size_t where;
 };
 
 struct Contents {
+  int dimension;  ///< of the mesh that is asked for
   std::vector<Node> nodes;
-  std::vector<Element> elements;                  ///< plane ones
-  std::map<Group, std::vector<Tag>> group_nodes;  ///< nodes of points and lines in physical groups
+  std::vector<Element> elements;                  ///< those of that dimension
+  std::size_t lower_elements = 0;                 ///< number of the others
+  std::map<Group, std::vector<Tag>> group_nodes;  ///< nodes of the others in physical groups
   std::map<Group, std::string> group_names;
   std::map<Group, std::vector<int>> entity_groups;  ///< version 4: physical groups of (dimension, entity)
 };
 
-/// The element types that are read, by Gmsh's number: its nodes and dimension. Throws for all others.
+/// An element type that is read, by Gmsh's number. Throws for all others, and for those of volumes when the mesh that
+/// is asked for is plane.
 struct TypeInfo {
   int nodes, dimension;
+  ElementType type;  ///< of those that are surfaces or volumes
 };
-TypeInfo type_info(const Scanner& file, std::int64_t type);
+TypeInfo type_info(const Scanner& file, std::int64_t type, int dimension);
 
-/// Adds one element that was read: plane ones to `elements`, points and lines to each of their groups.
+/// Adds one element that was read: those of the mesh's dimension to `elements`, others to each of their groups.
 void add_element(Contents& contents, const TypeInfo& type, const Element& element, const std::vector<int>& groups);
 
 // Sections $Nodes and $Elements of version 2.2, and $Entities, $Nodes and $Elements of version 4.1; the cursor stands
@@ -55,6 +59,7 @@ void read_nodes_4(Scanner& file, Contents& contents);
 void read_elements_4(Scanner& file, Contents& contents);
 
 /// Checks all and makes the mesh.
-Mesh<2> to_mesh(const Scanner& file, Contents contents);
+template <int Dim>
+Mesh<Dim> to_mesh(const Scanner& file, Contents contents);
 
 }  // namespace scarp::gmsh

@@ -68,13 +68,13 @@ void read_elements_2(Scanner& file, Contents& contents) {
     Element element{0, ElementType::T3, {}, file.here()};
     if (!file.binary()) {
       element.tag = positive(file, "an element's number");
-      const TypeInfo type = type_info(file, file.integer("an element's type"));
+      const TypeInfo type = type_info(file, file.integer("an element's type"), contents.dimension);
       read_rest(file, type, tag_count(file), element, contents);
       file.end_record();
       ++done;
       continue;
     }
-    const TypeInfo type = type_info(file, file.integer("the type of a block of elements"));
+    const TypeInfo type = type_info(file, file.integer("the type of a block of elements"), contents.dimension);
     const std::int64_t block = file.integer("the number of elements in a block");
     if (block < 1 || static_cast<std::uint64_t>(block) > count - done)
       file.fail("the blocks of elements do not add up to the number of elements",

@@ -128,7 +128,7 @@ void read_elements_4(Scanner& file, Contents& contents) {
     file.begin_record();
     const int dim = dimension(file);
     const int entity = entity_tag(file);
-    const TypeInfo type = type_info(file, file.integer("the type of a block of elements"));
+    const TypeInfo type = type_info(file, file.integer("the type of a block of elements"), contents.dimension);
     if (type.dimension != dim)
       file.fail("elements of this type do not fit the entity",
                 fmt::format("dimension {} in an entity of dimension {}", type.dimension, dim), damaged, file.last());

@@ -1,0 +1,21 @@
+// Distorted hexahedra: a quarter of a ring, extruded. The surface at z = 0 is in the user's own group "left".
+SetFactory("Built-in");
+Point(1) = {1, 0, 0, 0.5};
+Point(2) = {3, 0, 0, 0.5};
+Point(3) = {0, 3, 0, 0.5};
+Point(4) = {0, 1, 0, 0.5};
+Point(5) = {0, 0, 0, 0.5};
+Line(1) = {1, 2};
+Circle(2) = {2, 5, 3};
+Line(3) = {3, 4};
+Circle(4) = {4, 5, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Transfinite Curve {1, 3} = 4 Using Progression 1.2;
+Transfinite Curve {2, 4} = 6;
+Transfinite Surface {1};
+Recombine Surface {1};
+out[] = Extrude {0, 0, 1} { Surface{1}; Layers{2}; Recombine; };
+Physical Surface("left") = {1};
+Physical Volume("soil") = {out[1]};
+Physical Volume("all") = {out[1]};
