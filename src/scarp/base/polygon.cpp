@@ -77,6 +77,14 @@ bool contains(std::span<const Vec<2>> polygon, const Vec<2>& point) {
   return inside;
 }
 
+double distance_from_edges(std::span<const Vec<2>> polygon, const Vec<2>& point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    least = std::min(least, distance(polygon[i], polygon[(i + 1) % polygon.size()], point));
+  }
+  return least;
+}
+
 Polygon clip_to_box(std::span<const Vec<2>> polygon, const Vec<2>& low, const Vec<2>& high) {
   Polygon part(polygon.begin(), polygon.end());
   for (int axis = 0; axis < 2; ++axis) {

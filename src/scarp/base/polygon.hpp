@@ -26,6 +26,9 @@ Moments moments(std::span<const Vec<2>> polygon);
 /// Is the point inside or on the edge (within round-off)?
 bool contains(std::span<const Vec<2>> polygon, const Vec<2>& point);
 
+/// Distance of a point, inside or outside, from the nearest edge.
+double distance_from_edges(std::span<const Vec<2>> polygon, const Vec<2>& point);
+
 /// The part of `polygon` (any simple polygon) inside the axis-aligned box low..high. Pieces may be joined by
 /// edges of no width along the box, which change neither area nor centroid.
 Polygon clip_to_box(std::span<const Vec<2>> polygon, const Vec<2>& low, const Vec<2>& high);
@@ -37,9 +40,6 @@ std::optional<std::pair<std::size_t, std::size_t>> self_crossing(std::span<const
 /// Heights at which the vertical line at x enters and leaves the polygon: ascending pairs [low, high].
 std::vector<std::array<double, 2>> vertical_cuts(std::span<const Vec<2>> polygon, double x);
 
-struct Box {
-  Vec<2> low, high;
-};
 Box bounds(std::span<const Vec<2>> polygon);
 
 }  // namespace scarp

@@ -1,19 +1,20 @@
 #include "scarp/input/case.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <functional>
+#include <utility>
 
 #include "scarp/input/readers.hpp"
 
 namespace scarp::input {
 namespace {
 
-RemovalInput read_removal(const Node& node, double duration) {
+template <int Dim>
+RemovalInputOf<Dim> read_removal(const Node& node, double duration, const std::string& case_path) {
   Table table(node, "remove");
-  RemovalInput removal;
-  removal.polygon =
-      read_polygon(table.need("polygon", "add the corners of the soil that is taken away"), "the polygon of remove");
+  RemovalInputOf<Dim> removal;
+  static_cast<Place<Dim>&>(removal) = read_place<Dim>(table, "remove", case_path);
   removal.lifts = table.whole_or("lifts", 1, 1000000, 1);
   removal.over = table.number_or("over", {0, duration}, 0);
   table.finish();
@@ -74,54 +75,10 @@ std::vector<Item> read_all(Table& document, const std::string& key, const char* 
 
 }  // namespace
 
-BoundaryInput read_boundary(const Node& node) {
-  Table table(node, "[[boundary]]");
-  BoundaryInput boundary;
-  boundary.position = node.position;
-  const Node* nodes = table.find("nodes");
-  const Node* line = table.find("line");
-  if ((nodes != nullptr) == (line != nullptr)) {
-    throw InputError("a boundary has either nodes, the name of a set, or a line", nodes ? "both" : "neither",
-                     "write nodes = \"bottom\" or line = [[0.0, 0.0], [45.0, 0.0]]", node.position);
-  }
-  if (nodes) {
-    boundary.nodes = text_in(*nodes, "nodes");
-  } else {
-    const auto* ends = std::get_if<List>(&line->value);
-    if (!ends || ends->size() != 2)
-      throw InputError("line is a list of two points", describe(*line), "write line = [[0.0, 0.0], [45.0, 0.0]]",
-                       line->position);
-    const auto a = numbers_in((*ends)[0], "a point", 2), b = numbers_in((*ends)[1], "a point", 2);
-    if (a == b)
-      throw InputError("the two points of line differ", "the same point twice", "give its two ends", line->position);
-    boundary.line = {Vec<2>{a[0], a[1]}, Vec<2>{b[0], b[1]}};
-  }
-  const Node& fix = table.need("fix", "write fix = [\"x\"], [\"y\"] or [\"x\", \"y\"]");
-  const auto* components = std::get_if<List>(&fix.value);
-  if (!components || components->empty())
-    throw InputError("fix is a list of components", describe(fix), "write fix = [\"x\"], [\"y\"] or [\"x\", \"y\"]",
-                     fix.position);
-  for (const auto& component : *components) {
-    const auto name = text_in(component, "a component of fix");
-    if (name != "x" && name != "y")
-      throw InputError("a component of fix is \"x\" or \"y\"", describe(component),
-                       "write fix = [\"x\"], [\"y\"] or [\"x\", \"y\"]", component.position);
-    (name == "x" ? boundary.fix_x : boundary.fix_y) = true;
-  }
-  if (const Node* friction = table.find("friction")) {
-    boundary.friction = number_in(*friction, "friction", not_negative);
-    if (boundary.fix_x == boundary.fix_y) {
-      throw InputError("a wall with friction fixes one component, its normal", "both x and y fixed",
-                       "fix only the component across the wall", friction->position);
-    }
-  }
-  table.finish();
-  return boundary;
-}
-
-StageInput read_stage(const Node& node) {
+template <int Dim>
+StageInputOf<Dim> read_stage(const Node& node, const std::string& case_path) {
   Table table(node, "[[stage]]");
-  StageInput stage;
+  StageInputOf<Dim> stage;
   stage.position = node.position;
   stage.name = table.text("name", "add name = \"at rest\", for instance");
   stage.duration = table.number("duration", positive, "add the time that the stage takes at most, in seconds");
@@ -129,11 +86,14 @@ StageInput read_stage(const Node& node) {
   if (const Node* flip = table.find("flip")) stage.flip = number_in(*flip, "flip", {0, 1});
   stage.zero_displacement = table.truth_or("zero_displacement", false);
   stage.zero_velocity = table.truth_or("zero_velocity", false);
-  if (const Node* remove = table.find("remove")) stage.remove = read_removal(*remove, stage.duration);
+  if (const Node* remove = table.find("remove")) stage.remove = read_removal<Dim>(*remove, stage.duration, case_path);
   if (const Node* rest = table.find("rest")) stage.rest = read_rest(*rest);
   table.finish();
   return stage;
 }
+
+template StageInputOf<2> read_stage<2>(const Node&, const std::string&);
+template StageInputOf<3> read_stage<3>(const Node&, const std::string&);
 
 MethodInput read_method(const Node& node) {
   Table table(node, "[method]");
@@ -171,36 +131,59 @@ OutputInput read_output(const Node& node) {
   return output;
 }
 
-Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
-  Node document = parse_file(path);
-  for (const auto& text : overrides) apply_override(document, text);
-  document.position = {path, 0, 0};
-  Table table(document, "the case");
-  Case result;
+namespace {
+
+/// Stresses come from the weight above only where gravity points down.
+template <int Dim>
+void check_gravity(const CaseOf<Dim>& input) {
+  bool down = input.gravity[Dim - 1] <= 0;
+  for (int j = 0; j + 1 < Dim; ++j) down = down && input.gravity[j] == 0;
+  for (const auto& region : input.regions) {
+    if (down || region.stress) continue;
+    throw InputError("with gravity that does not point down, stresses cannot come from the weight of the soil above",
+                     fmt::format("gravity = [{}]", fmt::join(input.gravity, ", ")),
+                     "give the region a stress instead of K0", region.position);
+  }
+}
+
+template <int Dim>
+CaseOf<Dim> read_tables(Table& table, const std::string& path) {
+  CaseOf<Dim> result;
   result.path = path;
   result.title = table.text_or("title", path);
-  result.gravity = table.vector("gravity").value_or(result.gravity);
-  result.mesh = read_mesh(table.need("mesh", "add [mesh] with a file or a grid"), path);
+  if (const Node* gravity = table.find("gravity")) result.gravity = vector_in<Dim>(*gravity, "gravity");
+  result.mesh = read_mesh<Dim>(table.need("mesh", "add [mesh] with a file or a grid"), path);
   if (const Node* method = table.find("method")) result.method = read_method(*method);
   if (const Node* output = table.find("output")) result.output = read_output(*output);
   result.materials = read_all<MaterialInput>(table, "material", "the soil",
                                              [&](const Node& node) { return read_material(node, path); });
-  result.regions = read_all<RegionInput>(table, "region", "where the soil is",
-                                         [&](const Node& node) { return read_region(node, result.materials); });
-  result.boundaries = read_all<BoundaryInput>(table, "boundary", "", read_boundary);
-  result.stages = read_all<StageInput>(table, "stage", "what happens to it", read_stage);
+  result.regions = read_all<RegionInputOf<Dim>>(table, "region", "where the soil is", [&](const Node& node) {
+    return read_region<Dim>(node, result.materials, path);
+  });
+  result.boundaries = read_all<BoundaryInput>(table, "boundary", "", read_boundary<Dim>);
+  result.stages = read_all<StageInputOf<Dim>>(table, "stage", "what happens to it",
+                                              [&](const Node& node) { return read_stage<Dim>(node, path); });
   table.finish();
-  if (result.gravity[0] != 0 || result.gravity[1] > 0) {
-    for (const auto& region : result.regions) {
-      if (!region.stress) {
-        throw InputError(
-            "with gravity that does not point down, stresses cannot come from the weight of the soil above",
-            fmt::format("gravity = [{}, {}]", result.gravity[0], result.gravity[1]),
-            "give the region a stress instead of K0", region.position);
-      }
-    }
-  }
+  check_gravity(result);
   return result;
+}
+
+}  // namespace
+
+AnyCase read_any_case(const std::string& path, const std::vector<std::string>& overrides) {
+  Node document = parse_file(path);
+  for (const auto& text : overrides) apply_override(document, text);
+  document.position = {path, 0, 0};
+  Table table(document, "the case");
+  if (table.whole_or("dimension", 2, 3, 2) == 2) return read_tables<2>(table, path);
+  return read_tables<3>(table, path);
+}
+
+Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
+  auto result = read_any_case(path, overrides);
+  if (auto* plane = std::get_if<Case>(&result)) return std::move(*plane);
+  throw InputError("only cases in two dimensions can be computed here", "dimension = 3",
+                   "leave dimension out and give polygons instead of solids", {path, 0, 0});
 }
 
 }  // namespace scarp::input

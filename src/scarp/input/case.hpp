@@ -1,27 +1,33 @@
-// A case as plain data: what a TOML file says, checked. No physics, no parser types.
+// A case as plain data: what a TOML file says, checked. No physics, no parser types. What differs between two and three
+// dimensions is a template; the short names are the plane ones.
 #pragma once
 
 #include <array>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "scarp/base/error.hpp"
 #include "scarp/base/polygon.hpp"
+#include "scarp/base/solid.hpp"
 #include "scarp/material/models.hpp"
+#include "scarp/tensor/sym.hpp"
 
 namespace scarp::input {
 
 /// [mesh]: either a grid or a Gmsh file.
-struct MeshInput {
+template <int Dim>
+struct MeshInputOf {
   struct GridInput {
-    Vec<2> origin{}, size{};
-    std::array<int, 2> elements{};
+    Vec<Dim> origin{}, size{};
+    std::array<int, Dim> elements{};
   };
   std::optional<GridInput> grid;
   std::optional<std::string> file;  ///< absolute, or relative to the working directory (resolved from the case file)
   Position position;
 };
+using MeshInput = MeshInputOf<2>;
 
 /// [[material]]
 struct MaterialInput {
@@ -31,35 +37,53 @@ struct MaterialInput {
   Position position;
 };
 
-/// [[region]]: a polygon filled with points at its own spacing, one material, one rule for the initial state.
-struct RegionInput {
-  std::string name;
-  std::size_t material = 0;  ///< index into Case::materials
+/// Where soil is: a polygon in two dimensions, a solid in three; shape() in both.
+template <int Dim>
+struct Place;
+template <>
+struct Place<2> {
   Polygon polygon;
+  const Polygon& shape() const { return polygon; }
+};
+template <>
+struct Place<3> {
+  Solid solid;
+  const Solid& shape() const { return solid; }
+};
+
+/// [[region]]: a place filled with points at its own spacing, one material, one rule for the initial state.
+template <int Dim>
+struct RegionInputOf : Place<Dim> {
+  std::string name;
+  std::size_t material = 0;  ///< index into CaseOf::materials
   double spacing = 0;        ///< distance between points [m]
-  Vec<2> velocity{};         ///< initial velocity [m/s]
+  Vec<Dim> velocity{};       ///< initial velocity [m/s]
   std::optional<double> K0;  ///< horizontal over vertical effective stress; not set: from the model
-  std::optional<std::array<double, 4>>
-      stress;      ///< uniform (xx, yy, zz, xy), compression positive, instead of the weight above
+  std::optional<std::array<double, sym_size<Dim>>>
+      stress;      ///< uniform (xx, yy, zz, xy(, yz, zx)), compression positive, instead of the weight above
   Values initial;  ///< keys that the model declares for its initial state
   Position position;
 };
+using RegionInput = RegionInputOf<2>;
 
-/// [[boundary]]: nodes of a named set, or within round-off of a segment.
+/// [[boundary]]: nodes of a named set, or within round-off of a segment (two dimensions) or of a box (three).
 struct BoundaryInput {
-  std::optional<std::string> nodes;  ///< name of a node set of the mesh
-  std::optional<std::array<Vec<2>, 2>> line;
-  bool fix_x = false, fix_y = false;
+  std::optional<std::string> nodes;           ///< name of a node set of the mesh
+  std::optional<std::array<Vec<2>, 2>> line;  ///< in two dimensions
+  std::optional<BoxOf<3>> box;                ///< in three; may have no thickness
+  bool fix_x = false, fix_y = false, fix_z = false;
+  std::array<bool, 3> fixed() const { return {fix_x, fix_y, fix_z}; }
   std::optional<double> friction;  ///< coefficient on a wall; the fixed component is the wall's normal
   Position position;
 };
 
 /// Soil taken away during a stage, from the top down.
-struct RemovalInput {
-  Polygon polygon;
+template <int Dim>
+struct RemovalInputOf : Place<Dim> {
   int lifts = 1;
   double over = 0;  ///< time between the first and the last lift [s]
 };
+using RemovalInput = RemovalInputOf<2>;
 
 /// When a stage may end before its duration.
 struct RestInput {
@@ -70,17 +94,19 @@ struct RestInput {
 };
 
 /// [[stage]]
-struct StageInput {
+template <int Dim>
+struct StageInputOf {
   std::string name;
   double duration = 0;             ///< [s]
   double damping = 0;              ///< local (non-viscous) damping coefficient, 0 to below 1
   std::optional<double> flip;      ///< overrides MethodInput::flip
   bool zero_displacement = false;  ///< set displacements and eps_q to zero at the start
   bool zero_velocity = false;      ///< set velocities to zero at the start
-  std::optional<RemovalInput> remove;
+  std::optional<RemovalInputOf<Dim>> remove;
   std::optional<RestInput> rest;
   Position position;
 };
+using StageInput = StageInputOf<2>;
 
 /// [method]
 struct MethodInput {
@@ -99,22 +125,36 @@ struct OutputInput {
   std::string colour = "displacement";  ///< field that `scarp plot` shows unless told otherwise
 };
 
-struct Case {
+template <int Dim>
+struct CaseOf {
+  static constexpr int dimension = Dim;
   std::string title;
   std::string path;  ///< of the case file
-  Vec<2> gravity{0.0, -9.81};
-  MeshInput mesh;
+  Vec<Dim> gravity = down(9.81);
+  MeshInputOf<Dim> mesh;
   std::vector<MaterialInput> materials;
-  std::vector<RegionInput> regions;
+  std::vector<RegionInputOf<Dim>> regions;
   std::vector<BoundaryInput> boundaries;
-  std::vector<StageInput> stages;
+  std::vector<StageInputOf<Dim>> stages;
   MethodInput method;
   OutputInput output;
-};
 
-/// Reads and checks a case. `overrides` are "key=value" texts from --set: dotted keys into the file, items of
-/// arrays of tables by their name or their number from 0 ("stage.cut.duration=4", "material.clay.c_b=10").
-/// Throws InputError with file, line and column for the first thing wrong.
+  /// A vector of this length along −y in two dimensions, −z in three.
+  static constexpr Vec<Dim> down(double length) {
+    Vec<Dim> v{};
+    v[Dim - 1] = -length;
+    return v;
+  }
+};
+using Case = CaseOf<2>;
+using AnyCase = std::variant<CaseOf<2>, CaseOf<3>>;
+
+/// Reads and checks a case of the dimension that it names. `overrides` are "key=value" texts from --set: dotted keys
+/// into the file, items of arrays of tables by their name or their number from 0 ("stage.cut.duration=4",
+/// "material.clay.c_b=10"). Throws InputError with file, line and column for the first thing wrong.
+AnyCase read_any_case(const std::string& path, const std::vector<std::string>& overrides = {});
+
+/// The same where only two dimensions will do; throws InputError for a case in three.
 Case read_case(const std::string& path, const std::vector<std::string>& overrides = {});
 
 }  // namespace scarp::input

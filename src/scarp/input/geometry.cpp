@@ -1,6 +1,7 @@
-// Polygons and the mesh of a case.
+// Numbers in space and the mesh of a case.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -8,11 +9,6 @@
 
 namespace scarp::input {
 namespace {
-
-Vec<2> pair_in(const Node& node, const std::string& name) {
-  const auto numbers = numbers_in(node, name, 2);
-  return {numbers[0], numbers[1]};
-}
 
 /// Number of elements along one direction of a grid, from their length.
 int count_along(double size, double element, const std::string& axis, const Position& at) {
@@ -31,12 +27,33 @@ int count_along(double size, double element, const std::string& axis, const Posi
   return static_cast<int>(count);
 }
 
-MeshInput::GridInput read_grid(const Node& node) {
+template <int Dim>
+constexpr const char* size_remedy = Dim == 2 ? "give its width and height, size = [45.0, 20.0]"
+                                             : "give its lengths along x, y and z, size = [45.0, 20.0, 20.0]";
+
+/// Numbers of elements, given as such.
+template <int Dim>
+std::array<int, Dim> read_counts(const Node& node) {
+  const auto numbers = vector_in<Dim>(node, "elements");
+  std::array<int, Dim> counts;
+  for (int j = 0; j < Dim; ++j) {
+    if (numbers[j] < 1 || numbers[j] != std::floor(numbers[j]) || numbers[j] > 1e8) {
+      throw InputError(fmt::format("elements are {} whole numbers of at least 1", Dim == 2 ? "two" : "three"),
+                       fmt::format("{}", numbers[j]),
+                       fmt::format("write elements = [90, 40{}], for instance", Dim == 2 ? "" : ", 40"), node.position);
+    }
+    counts[j] = static_cast<int>(numbers[j]);
+  }
+  return counts;
+}
+
+template <int Dim>
+typename MeshInputOf<Dim>::GridInput read_grid(const Node& node) {
   Table table(node, "grid");
-  MeshInput::GridInput grid;
-  grid.origin = table.vector("origin").value_or(Vec<2>{0, 0});
-  const Node& size = table.need("size", "give its width and height, size = [45.0, 20.0]");
-  grid.size = pair_in(size, "size");
+  typename MeshInputOf<Dim>::GridInput grid;
+  if (const Node* origin = table.find("origin")) grid.origin = vector_in<Dim>(*origin, "origin");
+  const Node& size = table.need("size", size_remedy<Dim>);
+  grid.size = vector_in<Dim>(size, "size");
   for (const double length : grid.size) number_in({size.position, length}, "size", positive);
   const Node* counts = table.find("elements");
   const Node* element = table.find("element");
@@ -45,22 +62,17 @@ MeshInput::GridInput read_grid(const Node& node) {
                      counts ? "both" : "neither", "write element = 0.5, for instance", node.position);
   }
   if (counts) {
-    const auto numbers = numbers_in(*counts, "elements", 2);
-    for (int j = 0; j < 2; ++j) {
-      if (numbers[j] < 1 || numbers[j] != std::floor(numbers[j]) || numbers[j] > 1e8) {
-        throw InputError("elements are two whole numbers of at least 1", fmt::format("{}", numbers[j]),
-                         "write elements = [90, 40], for instance", counts->position);
-      }
-      grid.elements[j] = static_cast<int>(numbers[j]);
-    }
+    grid.elements = read_counts<Dim>(*counts);
   } else {
-    const Vec<2> lengths =
-        element->is_list() ? pair_in(*element, "element")
-                           : Vec<2>{number_in(*element, "element", positive), number_in(*element, "element", positive)};
-    const char* axes[] = {"x", "y"};
-    for (int j = 0; j < 2; ++j) {
+    Vec<Dim> lengths;
+    if (element->is_list()) {
+      lengths = vector_in<Dim>(*element, "element");
+    } else {
+      lengths.fill(number_in(*element, "element", positive));
+    }
+    for (int j = 0; j < Dim; ++j) {
       number_in({element->position, lengths[j]}, "element", positive);
-      grid.elements[j] = count_along(grid.size[j], lengths[j], axes[j], element->position);
+      grid.elements[j] = count_along(grid.size[j], lengths[j], std::string(1, "xyz"[j]), element->position);
     }
   }
   table.finish();
@@ -69,57 +81,78 @@ MeshInput::GridInput read_grid(const Node& node) {
 
 }  // namespace
 
-Polygon read_polygon(const Node& node, const std::string& name) {
-  const auto* corners = std::get_if<List>(&node.value);
-  if (!corners || corners->size() < 3) {
-    throw InputError(fmt::format("{} is a list of at least 3 corners [x, y]", name),
-                     corners ? fmt::format("{} corners", corners->size()) : describe(node),
-                     "write polygon = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], for instance", node.position);
-  }
-  Polygon polygon;
-  for (const auto& corner : *corners) polygon.push_back(pair_in(corner, "a corner"));
-  if (const auto crossing = self_crossing(polygon)) {
-    const auto [i, j] = *crossing;
-    const auto edge = [&](std::size_t k) {
-      const auto &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-      return fmt::format("({:g}, {:g})-({:g}, {:g})", a[0], a[1], b[0], b[1]);
-    };
-    throw InputError(fmt::format("{} does not cross or touch itself", name),
-                     fmt::format("edges {} and {}, which meet", edge(i), edge(j)),
-                     "list the corners in order around the polygon, each once, without repeating the first",
-                     (*corners)[j].position);
-  }
-  const Box box = bounds(polygon);
-  if (moments(polygon).area <= 1e-12 * (box.high[0] - box.low[0]) * (box.high[1] - box.low[1])) {
-    throw InputError(fmt::format("{} has an area", name), "none", "give corners that are not on one line",
-                     node.position);
-  }
-  return polygon;
+template <int Dim>
+std::vector<double> numbers_of(const Node& node, const std::string& name, std::size_t plane, std::size_t space) {
+  const std::size_t count = Dim == 2 ? plane : space, other = Dim == 2 ? space : plane;
+  const auto* list = std::get_if<List>(&node.value);
+  if (!list || list->size() != other) return numbers_in(node, name, count);
+  throw InputError(fmt::format("{} is a list of {} numbers in {} dimensions", name, count, Dim == 2 ? "two" : "three"),
+                   fmt::format("{} items", other),
+                   Dim == 2
+                       ? fmt::format("write {} numbers in brackets, or dimension = 3 at the top of the case", count)
+                       : fmt::format("write {} numbers in brackets, or leave out dimension = 3", count),
+                   node.position);
 }
 
-MeshInput read_mesh(const Node& node, const std::string& case_path) {
+template <int Dim>
+Vec<Dim> vector_in(const Node& node, const std::string& name) {
+  const auto numbers = numbers_of<Dim>(node, name, 2, 3);
+  Vec<Dim> result;
+  std::copy(numbers.begin(), numbers.end(), result.begin());
+  return result;
+}
+
+template <int Dim>
+void refuse_keys(const Table& table, const std::vector<std::string>& keys, const std::string& remedy) {
+  for (const auto& key : keys) {
+    const Node* node = table.look(key);
+    if (!node || node->is_table()) continue;  // no key of either takes a table: a slip of another kind
+    throw InputError(
+        fmt::format("{} is a key of cases in {} dimensions", key, Dim == 2 ? "three" : "two"), describe(*node),
+        Dim == 2 ? fmt::format("{}; for three dimensions write dimension = 3 at the top of the case", remedy) : remedy,
+        node->position);
+  }
+}
+
+std::string read_file_name(const Node& node, const std::string& key, const std::string& kind,
+                           const std::string& case_path) {
+  const std::filesystem::path name = text_in(node, key);
+  const auto file = (name.is_absolute() ? name : std::filesystem::path(case_path).parent_path() / name).string();
+  std::error_code none;  // a name that no file can have is a file that is not there
+  if (std::filesystem::exists(file, none)) return file;
+  throw InputError(fmt::format("{} file is not there", kind), file, "names are relative to the case file's folder",
+                   node.position);
+}
+
+template <int Dim>
+MeshInputOf<Dim> read_mesh(const Node& node, const std::string& case_path) {
   Table table(node, "[mesh]");
-  MeshInput mesh;
+  MeshInputOf<Dim> mesh;
   mesh.position = node.position;
   const Node* grid = table.find("grid");
   const Node* file = table.find("file");
   if ((grid != nullptr) == (file != nullptr)) {
     throw InputError("[mesh] has either a file made by Gmsh or a grid", grid ? "both" : "neither",
-                     "write file = \"slope.msh\" or grid = { size = [45.0, 20.0], element = 0.5 }", node.position);
+                     fmt::format("write file = \"slope.msh\" or grid = {{ size = [45.0, 20.0{}], element = 0.5 }}",
+                                 Dim == 2 ? "" : ", 20.0"),
+                     node.position);
   }
   if (grid) {
-    mesh.grid = read_grid(*grid);
+    mesh.grid = read_grid<Dim>(*grid);
   } else {
-    const std::filesystem::path name = text_in(*file, "file");
-    mesh.file = (name.is_absolute() ? name : std::filesystem::path(case_path).parent_path() / name).string();
-    std::error_code none;  // a name that no file can have is a file that is not there
-    if (!std::filesystem::exists(*mesh.file, none)) {
-      throw InputError("the mesh file is not there", *mesh.file, "names are relative to the case file's folder",
-                       file->position);
-    }
+    mesh.file = read_file_name(*file, "file", "the mesh", case_path);
   }
   table.finish();
   return mesh;
 }
+
+template MeshInputOf<2> read_mesh<2>(const Node&, const std::string&);
+template MeshInputOf<3> read_mesh<3>(const Node&, const std::string&);
+template std::vector<double> numbers_of<2>(const Node&, const std::string&, std::size_t, std::size_t);
+template std::vector<double> numbers_of<3>(const Node&, const std::string&, std::size_t, std::size_t);
+template Vec<2> vector_in<2>(const Node&, const std::string&);
+template Vec<3> vector_in<3>(const Node&, const std::string&);
+template void refuse_keys<2>(const Table&, const std::vector<std::string>&, const std::string&);
+template void refuse_keys<3>(const Table&, const std::vector<std::string>&, const std::string&);
 
 }  // namespace scarp::input

@@ -6,11 +6,17 @@
 
 namespace scarp::input {
 
-MeshInput read_mesh(const Node& node, const std::string& case_path);
+// Relative names of files start at the folder of the case file, `case_path`. Those with Dim are there for 2 and 3.
+template <int Dim>
+MeshInputOf<Dim> read_mesh(const Node& node, const std::string& case_path);
 MaterialInput read_material(const Node& node, const std::string& case_path);
-RegionInput read_region(const Node& node, const std::vector<MaterialInput>& materials);
+template <int Dim>
+RegionInputOf<Dim> read_region(const Node& node, const std::vector<MaterialInput>& materials,
+                               const std::string& case_path);
+template <int Dim>
 BoundaryInput read_boundary(const Node& node);
-StageInput read_stage(const Node& node);
+template <int Dim>
+StageInputOf<Dim> read_stage(const Node& node, const std::string& case_path);
 MethodInput read_method(const Node& node);
 OutputInput read_output(const Node& node);
 
@@ -21,7 +27,27 @@ AnyModel read_law(Table& table, const std::string& file);
 /// The keys of `table` not read before, as initial values of the model; `places` says where each stands.
 Values read_initial(Table& table, const AnyModel& model, std::map<std::string, Position>& places);
 
-/// A polygon: at least three corners, an area, no crossing edges.
-Polygon read_polygon(const Node& node, const std::string& name);
+/// Where the soil of `table` is; `name` is how messages call the table, such as "the region". In two dimensions a
+/// polygon: at least three corners, an area, no crossing edges. In three a box, a polygon with its extent along the
+/// third axis, or a closed surface from an STL file.
+template <int Dim>
+Place<Dim> read_place(Table& table, const std::string& name, const std::string& case_path);
+
+/// Two opposite corners [x, y, z], in any order.
+BoxOf<3> read_box(const Node& node);
+
+/// A file that the case names; an error where it is not there. `kind` is how messages call it, such as "the mesh".
+std::string read_file_name(const Node& node, const std::string& key, const std::string& kind,
+                           const std::string& case_path);
+
+/// A list of `plane` numbers in two dimensions, of `space` numbers in three; says so where it has the other number.
+template <int Dim>
+std::vector<double> numbers_of(const Node& node, const std::string& name, std::size_t plane, std::size_t space);
+template <int Dim>
+Vec<Dim> vector_in(const Node& node, const std::string& name);
+
+/// Refuses keys that belong to the other number of dimensions.
+template <int Dim>
+void refuse_keys(const Table& table, const std::vector<std::string>& keys, const std::string& remedy);
 
 }  // namespace scarp::input

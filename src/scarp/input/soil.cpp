@@ -129,42 +129,59 @@ MaterialInput read_material(const Node& node, const std::string& case_path) {
   return {std::move(name), read_law(table, case_path), density, node.position};
 }
 
-RegionInput read_region(const Node& node, const std::vector<MaterialInput>& materials) {
-  Table table(node, "[[region]]");
-  RegionInput region;
-  region.position = node.position;
-  region.name = table.text("name", "add name = \"slope\", for instance");
-  const Node& material = table.need("material", "add material = \"...\", the name of a [[material]]");
+namespace {
+
+/// Index of the material that a region names.
+std::size_t find_material(const Node& material, const std::vector<MaterialInput>& materials) {
   const std::string wanted = text_in(material, "material");
   std::vector<std::string> names;
-  for (const auto& candidate : materials) names.push_back('"' + candidate.name + '"');
-  for (region.material = 0; region.material < materials.size(); ++region.material) {
-    if (materials[region.material].name == wanted) break;
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    if (materials[m].name == wanted) return m;
+    names.push_back('"' + materials[m].name + '"');
   }
-  if (region.material == materials.size()) {
-    throw InputError("there is no such material", '"' + wanted + '"',
-                     fmt::format("choose one of {}", fmt::join(names, ", ")), material.position);
-  }
-  region.polygon = read_polygon(table.need("polygon", "add the corners of the region"), "the polygon of the region");
-  region.spacing =
-      table.number("spacing", positive, "add the distance between material points, such as spacing = 0.25");
-  region.velocity = table.vector("velocity").value_or(Vec<2>{0, 0});
+  throw InputError("there is no such material", '"' + wanted + '"',
+                   fmt::format("choose one of {}", fmt::join(names, ", ")), material.position);
+}
+
+template <int Dim>
+void read_stress(Table& table, RegionInputOf<Dim>& region) {
   const Node* K0 = table.find("K0");
   const Node* stress = table.find("stress");
   if ((K0 != nullptr) == (stress != nullptr)) {
     throw InputError("a region has either K0, for stresses from the weight of the soil, or a uniform stress",
-                     K0 ? "both" : "neither", "write K0 = 0.6, K0 = \"model\" or stress = [0.0, 0.0, 0.0, 0.0]",
-                     node.position);
+                     K0 ? "both" : "neither",
+                     fmt::format("write K0 = 0.6, K0 = \"model\" or stress = [{}]",
+                                 Dim == 2 ? "0.0, 0.0, 0.0, 0.0" : "0.0, 0.0, 0.0, 0.0, 0.0, 0.0"),
+                     table.position());
   }
   if (stress) {
-    const auto numbers = numbers_in(*stress, "stress", 4);
-    region.stress = std::array<double, 4>{numbers[0], numbers[1], numbers[2], numbers[3]};
+    const auto numbers = numbers_of<Dim>(*stress, "stress", 4, 6);
+    region.stress.emplace();
+    std::copy(numbers.begin(), numbers.end(), region.stress->begin());
   } else if (std::holds_alternative<std::string>(K0->value)) {
     if (std::get<std::string>(K0->value) != "model")
       throw InputError("K0 is a number or \"model\"", describe(*K0), "write K0 = 0.6 or K0 = \"model\"", K0->position);
   } else {
     region.K0 = number_in(*K0, "K0", not_negative);
   }
+}
+
+}  // namespace
+
+template <int Dim>
+RegionInputOf<Dim> read_region(const Node& node, const std::vector<MaterialInput>& materials,
+                               const std::string& case_path) {
+  Table table(node, "[[region]]");
+  RegionInputOf<Dim> region;
+  region.position = node.position;
+  region.name = table.text("name", "add name = \"slope\", for instance");
+  region.material =
+      find_material(table.need("material", "add material = \"...\", the name of a [[material]]"), materials);
+  static_cast<Place<Dim>&>(region) = read_place<Dim>(table, "the region", case_path);
+  region.spacing =
+      table.number("spacing", positive, "add the distance between material points, such as spacing = 0.25");
+  if (const Node* velocity = table.find("velocity")) region.velocity = vector_in<Dim>(*velocity, "velocity");
+  read_stress(table, region);
   if (const Node* initial = table.find("initial")) {
     Table keys(*initial, "initial");
     std::map<std::string, Position> places;
@@ -173,5 +190,8 @@ RegionInput read_region(const Node& node, const std::vector<MaterialInput>& mate
   table.finish();
   return region;
 }
+
+template RegionInputOf<2> read_region<2>(const Node&, const std::vector<MaterialInput>&, const std::string&);
+template RegionInputOf<3> read_region<3>(const Node&, const std::vector<MaterialInput>&, const std::string&);
 
 }  // namespace scarp::input

@@ -94,6 +94,10 @@ Table::Table(const Node& node, std::string title)
 
 const Node* Table::find(const std::string& key) {
   asked_.insert(key);
+  return look(key);
+}
+
+const Node* Table::look(const std::string& key) const {
   const auto found = keys_.find(key);
   return found == keys_.end() ? nullptr : &found->second;
 }
@@ -139,13 +143,6 @@ std::string Table::text(const std::string& key, const std::string& remedy) {
 std::string Table::text_or(const std::string& key, const std::string& standard) {
   const Node* node = find(key);
   return node ? text_in(*node, key) : standard;
-}
-
-std::optional<Vec<2>> Table::vector(const std::string& key) {
-  const Node* node = find(key);
-  if (!node) return {};
-  const auto numbers = numbers_in(*node, key, 2);
-  return Vec<2>{numbers[0], numbers[1]};
 }
 
 std::vector<std::pair<std::string, const Node*>> Table::rest() {

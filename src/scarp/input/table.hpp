@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "scarp/base/vec.hpp"
 #include "scarp/input/document.hpp"
 
 namespace scarp::input {
@@ -36,6 +35,8 @@ class Table {
   const Position& position() const { return node_.position; }
   /// The node of a key, or nullptr; the key counts as read.
   const Node* find(const std::string& key);
+  /// The same, without counting it as read.
+  const Node* look(const std::string& key) const;
   /// The node of a key that must be there.
   const Node& need(const std::string& key, const std::string& remedy);
 
@@ -45,7 +46,6 @@ class Table {
   bool truth_or(const std::string& key, bool standard);
   std::string text(const std::string& key, const std::string& remedy);
   std::string text_or(const std::string& key, const std::string& standard);
-  std::optional<Vec<2>> vector(const std::string& key);
 
   /// All keys that have not been read, with their nodes; they count as read from then on.
   std::vector<std::pair<std::string, const Node*>> rest();

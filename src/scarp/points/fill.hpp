@@ -5,16 +5,19 @@
 #include <vector>
 
 #include "scarp/base/polygon.hpp"
+#include "scarp/base/solid.hpp"
 
 namespace scarp {
 
-/// Material points of a region: positions [m] and volumes [m3 per metre of thickness].
-struct Filling {
-  std::vector<Vec<2>> position;
+/// Material points of a region: positions [m] and volumes [m3; in two dimensions per metre of thickness].
+template <int Dim>
+struct FillingOf {
+  std::vector<Vec<Dim>> position;
   std::vector<double> volume;
 };
+using Filling = FillingOf<2>;
 
-/// A cell with less than this share of its full area gives its soil to a neighbouring cell's point.
+/// A cell with less than this share of its full area or volume gives its soil to a neighbouring cell's point.
 inline constexpr double least_cell_share = 0.3;
 
 /// Fills a simple polygon with points `spacing` apart [m]: a lattice divides its bounding box evenly, as near to the
@@ -24,7 +27,13 @@ inline constexpr double least_cell_share = 0.3;
 /// bottom; at least one point, whatever the spacing.
 Filling fill(const Polygon& polygon, double spacing);
 
-/// A point of another region's filling that lies inside `polygon`, further from its edges than round-off; if any.
-std::optional<Vec<2>> overlap(const Polygon& polygon, const Filling& other);
+/// The same for a solid. The points of an extruded polygon are those of the polygon, repeated in each layer along its
+/// axis. Inside a surface the cells' shares are exact, too: none is sampled. Throws InputError for a surface that
+/// passes through itself unnoticed, where a cell would hold less than nothing or more than itself.
+FillingOf<3> fill(const Solid& solid, double spacing);
+
+/// A point of another region's filling that lies inside `region`, further from its boundary than round-off; if any.
+template <int Dim>
+std::optional<Vec<Dim>> overlap(const Region<Dim>& region, const FillingOf<Dim>& other);
 
 }  // namespace scarp
