@@ -31,9 +31,12 @@ ElementsOfNodes elements_of_nodes(const Mesh<Dim>& mesh) {
 
 template <int Dim>
 void build_around(Mesh<Dim>& mesh) {
-  const ElementsOfNodes of = elements_of_nodes(mesh);
-  mesh.around_offsets.assign(1, 0);
+  mesh.around_offsets.clear();
   mesh.around.clear();
+  if (mesh.grid) return;
+  const ElementsOfNodes of = elements_of_nodes(mesh);
+  mesh.around_offsets.reserve(mesh.types.size() + 1);
+  mesh.around_offsets.push_back(0);
   std::vector<int> found;
   for (int e = 0; e < mesh.element_count(); ++e) {
     found.clear();
@@ -45,8 +48,6 @@ void build_around(Mesh<Dim>& mesh) {
     mesh.around_offsets.push_back(static_cast<int>(mesh.around.size()));
   }
 }
-
-template void build_around<2>(Mesh<2>&);
 
 double element_size(const Mesh<2>& mesh, int e) {
   return with_shape<2>(mesh.types[e], [&]<class Shape>(Shape) {
@@ -67,6 +68,16 @@ double element_size(const Mesh<2>& mesh, int e) {
   });
 }
 
+double element_size(const Mesh<3>& mesh, int e) {
+  return with_shape<3>(mesh.types[e], [&]<class Shape>(Shape) {
+    const NodePositions<Shape> x = node_positions<Shape>(mesh, e);
+    // A tetrahedron's corners span the same volume, and three of its faces each: all four faces are seen.
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < Shape::nodes; ++i) least = std::min(least, std::abs(corner_height<Shape>(x, i)));
+    return least;
+  });
+}
+
 double element_area(const Mesh<2>& mesh, int e) {
   const auto nodes = mesh.element_nodes(e);
   const Vec<2>& first = mesh.nodes[nodes[0]];
@@ -76,17 +87,41 @@ double element_area(const Mesh<2>& mesh, int e) {
   return 0.5 * twice;
 }
 
+double element_volume(const Mesh<3>& mesh, int e) {
+  if (mesh.types[e] == ElementType::T4) {
+    const NodePositions<T4> x = node_positions<T4>(mesh, e);
+    const Vec<3> u = detail::minus(x[1], x[0]), v = detail::minus(x[2], x[0]), w = detail::minus(x[3], x[0]);
+    return detail::dot(u, detail::cross(v, w)) / 6;
+  }
+  // det dx/dxi is of second degree in each local coordinate: two Gauss points along each are exact.
+  const NodePositions<H8> x = node_positions<H8>(mesh, e);
+  std::array<double, 8> N;
+  std::array<Vec<3>, 8> B;
+  const double g = 1 / std::sqrt(3.0);
+  double volume = 0;
+  for (int corner = 0; corner < 8; ++corner)
+    volume += gradients<H8>(x, {corner & 1 ? g : -g, corner & 2 ? g : -g, corner & 4 ? g : -g}, N, B);
+  return volume;
+}
+
+double mesh_volume(const Mesh<3>& mesh) {
+  double volume = 0;
+  for (int e = 0; e < mesh.element_count(); ++e) volume += element_volume(mesh, e);
+  return volume;
+}
+
 double mesh_area(const Mesh<2>& mesh) {
   double area = 0;
   for (int e = 0; e < mesh.element_count(); ++e) area += element_area(mesh, e);
   return area;
 }
 
-void add_side_sets(Mesh<2>& mesh) {
+template <int Dim>
+void add_side_sets(Mesh<Dim>& mesh) {
   if (mesh.nodes.empty()) return;
-  Vec<2> low = mesh.nodes[0], high = low;
-  for (const Vec<2>& x : mesh.nodes)
-    for (int k = 0; k < 2; ++k) {
+  Vec<Dim> low = mesh.nodes[0], high = low;
+  for (const Vec<Dim>& x : mesh.nodes)
+    for (int k = 0; k < Dim; ++k) {
       low[k] = std::min(low[k], x[k]);
       high[k] = std::max(high[k], x[k]);
     }
@@ -99,15 +134,27 @@ void add_side_sets(Mesh<2>& mesh) {
   };
   add("left", 0, low[0]);
   add("right", 0, high[0]);
-  add("bottom", 1, low[1]);
-  add("top", 1, high[1]);
+  add("bottom", Dim - 1, low[Dim - 1]);
+  add("top", Dim - 1, high[Dim - 1]);
+  if constexpr (Dim == 3) {
+    add("front", 1, low[1]);
+    add("back", 1, high[1]);
+  }
 }
 
-void complete(Mesh<2>& mesh) {
+template <int Dim>
+void complete(Mesh<Dim>& mesh) {
   build_around(mesh);
   mesh.size.resize(mesh.types.size());
   for (int e = 0; e < mesh.element_count(); ++e) mesh.size[e] = element_size(mesh, e);
   add_side_sets(mesh);
 }
+
+template void build_around(Mesh<2>&);
+template void build_around(Mesh<3>&);
+template void add_side_sets(Mesh<2>&);
+template void add_side_sets(Mesh<3>&);
+template void complete(Mesh<2>&);
+template void complete(Mesh<3>&);
 
 }  // namespace scarp

@@ -5,26 +5,39 @@
 
 namespace scarp {
 
-/// Fills around_offsets and around: for each element the others that share a node with it, ascending.
+/// Fills around_offsets and around: for each element the others that share a node with it, ascending. A grid needs
+/// neither, and gets them emptied.
 template <int Dim>
 void build_around(Mesh<Dim>& mesh);
 
 /// An element's least height [m]: the shortest way of a wave through it, for the critical time step.
 /// Triangle: twice the area over the longest edge. Quadrilateral: the least, over its four corners, of the height of
 /// the parallelogram spanned by the corner's two edges, |u x v| / max(|u|, |v|); a rectangle's shorter side.
+/// Tetrahedron and hexahedron likewise: the least over the corners of the height of the parallelepiped spanned by the
+/// corner's three edges on the largest of its faces; three volumes over the largest face, and a box's shortest side.
 double element_size(const Mesh<2>& mesh, int e);
+double element_size(const Mesh<3>& mesh, int e);
 
 /// Area of one element [m^2]; negative when its nodes run clockwise.
 double element_area(const Mesh<2>& mesh, int e);
 
+/// Volume of one element [m^3], that of the trilinear map for a hexahedron; negative when it is turned inside out.
+double element_volume(const Mesh<3>& mesh, int e);
+
 /// Sum of the areas of all elements [m^2].
 double mesh_area(const Mesh<2>& mesh);
 
-/// Adds the node sets "left", "right", "bottom" and "top" (nodes within 1e-9 of the extent of that side of the
-/// bounding box), except those that exist already.
-void add_side_sets(Mesh<2>& mesh);
+/// Sum of the volumes of all elements [m^3].
+double mesh_volume(const Mesh<3>& mesh);
+
+/// Adds the node sets of the sides (nodes within 1e-9 of the extent of that side of the bounding box), except those
+/// that exist already: "left" and "right" along x, "bottom" and "top" along the vertical (y in the plane, z in space),
+/// and in space "front" (least) and "back" (greatest) along y.
+template <int Dim>
+void add_side_sets(Mesh<Dim>& mesh);
 
 /// All of the above for a mesh whose nodes, types, offsets and connectivity are set.
-void complete(Mesh<2>& mesh);
+template <int Dim>
+void complete(Mesh<Dim>& mesh);
 
 }  // namespace scarp

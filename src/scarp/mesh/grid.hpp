@@ -1,15 +1,21 @@
-// Structured grids of equal rectangles.
+// Structured grids of equal rectangles or boxes.
 #pragma once
 
 #include <array>
+#include <type_traits>
 
 #include "scarp/mesh/mesh.hpp"
 
 namespace scarp {
 
-/// A grid of elements[0] x elements[1] four-node rectangles over the box of corner `origin` and lengths `size`
-/// [m]; nodes and elements numbered x fastest, with node sets left, right, bottom, top and the grid descriptor.
+/// A grid of elements[0] x elements[1] (x elements[2]) four-node rectangles (eight-node boxes) over the box of corner
+/// `origin` and lengths `size` [m]; nodes and elements numbered x fastest, then y, then z, with the node sets of the
+/// sides (add_side_sets) and the grid descriptor.
 /// Throws InputError when a length is not positive and finite, a count is below 1, or there are too many elements.
-Mesh<2> make_grid(const Vec<2>& origin, const Vec<2>& size, const std::array<int, 2>& elements);
+///
+/// The dimension is never deduced, so braces may stand for the arguments: make_grid<3>({0, 0, 0}, ...).
+template <int Dim = 2>
+Mesh<Dim> make_grid(const std::type_identity_t<Vec<Dim>>& origin, const std::type_identity_t<Vec<Dim>>& size,
+                    const std::type_identity_t<std::array<int, Dim>>& elements);
 
 }  // namespace scarp

@@ -35,17 +35,38 @@ std::vector<Bounds<Dim>> boxes_with_margin(const Mesh<Dim>& mesh, double margin)
   return boxes;
 }
 
-/// Distance [m] from x to the farthest of the element's edge lines that x is beyond. Unlike local coordinates it means
-/// the same in elements of any size and shape, so it can say which of several elements is the nearest.
-double distance(const Mesh<2>& mesh, int e, const Vec<2>& x) {
-  const auto nodes = mesh.element_nodes(e);
-  double farthest = 0;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Vec<2>& from = mesh.nodes[nodes[i]];
-    const Vec<2> edge = detail::minus(mesh.nodes[nodes[(i + 1) % nodes.size()]], from);
-    farthest = std::max(farthest, detail::cross(detail::minus(x, from), edge) / std::hypot(edge[0], edge[1]));
-  }
-  return farthest;
+/// How far [m] x is outside the line through an edge.
+double outside_of(const Vec<2>& x, const std::array<Vec<2>, 2>& edge) {
+  const Vec<2> along = detail::minus(edge[1], edge[0]);
+  return detail::cross(detail::minus(x, edge[0]), along) / std::hypot(along[0], along[1]);
+}
+
+/// How far [m] x is outside the plane of a face: that through its middle and along its diagonals, if it has four nodes.
+template <std::size_t Corners>
+double outside_of(const Vec<3>& x, const std::array<Vec<3>, Corners>& face) {
+  Vec<3> middle{};
+  for (const Vec<3>& corner : face)
+    for (int k = 0; k < 3; ++k) middle[k] += corner[k] / static_cast<double>(Corners);
+  const Vec<3> normal = Corners == 3
+                            ? detail::cross(detail::minus(face[1], face[0]), detail::minus(face[2], face[0]))
+                            : detail::cross(detail::minus(face[2], face[0]), detail::minus(face[Corners - 1], face[1]));
+  return detail::dot(detail::minus(x, middle), normal) / detail::norm(normal);
+}
+
+/// Distance [m] from x to the farthest of the lines or planes of the element's sides that x is beyond. Unlike local
+/// coordinates it means the same in elements of any size and shape, so it can say which of several is the nearest.
+template <int Dim>
+double distance(const Mesh<Dim>& mesh, int e, const Vec<Dim>& x) {
+  return with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
+    const NodePositions<Shape> x_nodes = node_positions<Shape>(mesh, e);
+    double farthest = 0;
+    for (const auto& nodes : Shape::sides) {
+      std::array<Vec<Dim>, std::tuple_size_v<std::decay_t<decltype(nodes)>>> side;
+      for (std::size_t i = 0; i < side.size(); ++i) side[i] = x_nodes[nodes[i]];
+      farthest = std::max(farthest, outside_of(x, side));
+    }
+    return farthest;
+  });
 }
 
 }  // namespace
@@ -81,7 +102,7 @@ Location<Dim> Locator<Dim>::find_in_other_cell(const Vec<Dim>& s, int hint, Sear
   for (int k = Dim - 1; k >= 0; --k) e = e * mesh_->grid->elements[k] + index[k];
   std::int64_t SearchCounts::*how = &SearchCounts::searched_all;
   if (hint >= 0) {
-    const std::array<int, Dim> own = cell(hint);
+    const std::array<int, Dim> own = mesh_->grid->cell(hint);
     int apart = 0;
     for (int k = 0; k < Dim; ++k) apart = std::max(apart, std::abs(index[k] - own[k]));
     how = apart <= 1 ? &SearchCounts::surrounding : &SearchCounts::walked;
@@ -136,7 +157,7 @@ Location<Dim> Locator<Dim>::walk(const Vec<Dim>& x, int hint, int& steps) const 
   int count = 0;
   seen[count++] = {hint, 0, true};
   for (int e : mesh_->elements_around(hint))
-    if (count < walk_limit) seen[count++] = {e, distance(*mesh_, e, x), false};
+    if (count < walk_limit) seen[count++] = {e, distance<Dim>(*mesh_, e, x), false};
   Location<Dim> found;
   while (true) {
     Seen* nearest = nullptr;
@@ -152,7 +173,7 @@ Location<Dim> Locator<Dim>::walk(const Vec<Dim>& x, int hint, int& steps) const 
         found.element = e;
         return found;
       }
-      seen[count++] = {e, distance(*mesh_, e, x), false};
+      seen[count++] = {e, distance<Dim>(*mesh_, e, x), false};
     }
   }
 }
@@ -203,7 +224,26 @@ bool Locator<Dim>::bin_of(const Vec<Dim>& x, std::array<int, Dim>& bin) const {
   return true;
 }
 
-/// Sorts the elements into about as many bins as there are elements.
+/// Sets bins_ over the box from low_ to high_ to about as many as there are elements, and returns their number.
+template <int Dim>
+int Locator<Dim>::choose_bins(int elements) {
+  double volume = 1;
+  for (int k = 0; k < Dim; ++k) volume *= high_[k] - low_[k];
+  double edge = std::pow(volume / std::max(elements, 1), 1.0 / Dim);
+  while (true) {
+    std::int64_t total = 1;
+    for (int k = 0; k < Dim; ++k) {
+      bins_[k] = elements == 0 ? 1 : std::clamp(static_cast<int>((high_[k] - low_[k]) / edge), 1, elements);
+      inverse_bin_[k] = bins_[k] / (high_[k] - low_[k]);
+      total *= bins_[k];
+    }
+    // A mesh that is much thinner than such a cube gets one bin across, and would get too many in the other directions.
+    if (total <= 2 * std::max<std::int64_t>(elements, 1)) return static_cast<int>(total);
+    edge *= 1.25;
+  }
+}
+
+/// Sorts the elements into the bins.
 template <int Dim>
 void Locator<Dim>::build_bins() {
   const int elements = mesh_->element_count();
@@ -215,15 +255,7 @@ void Locator<Dim>::build_bins() {
       low_[k] = std::min(low_[k], box.low[k]);
       high_[k] = std::max(high_[k], box.high[k]);
     }
-  double volume = 1;
-  for (int k = 0; k < Dim; ++k) volume *= high_[k] - low_[k];
-  const double edge = std::pow(volume / std::max(elements, 1), 1.0 / Dim);
-  int total = 1;
-  for (int k = 0; k < Dim; ++k) {
-    bins_[k] = elements == 0 ? 1 : std::clamp(static_cast<int>((high_[k] - low_[k]) / edge), 1, elements);
-    inverse_bin_[k] = bins_[k] / (high_[k] - low_[k]);
-    total *= bins_[k];
-  }
+  const int total = choose_bins(elements);
   bin_offsets_.assign(static_cast<std::size_t>(total) + 1, 0);
   for (const Bounds<Dim>& box : boxes) for_bins_in(box.low, box.high, [&](int b) { ++bin_offsets_[b + 1]; });
   for (int b = 0; b < total; ++b) bin_offsets_[b + 1] += bin_offsets_[b];
@@ -260,5 +292,6 @@ int Locator<Dim>::bin_index(const std::array<int, Dim>& bin) const {
 }
 
 template class Locator<2>;
+template class Locator<3>;
 
 }  // namespace scarp

@@ -55,7 +55,7 @@ struct Location {
 /// are const and without scratch, so any number of threads may share one Locator, each with its own SearchCounts.
 ///
 /// A point outside an element by less than `tolerance()` of the element's height counts as inside. A point on a
-/// shared edge stays in its element (the hint) when that contains it; otherwise it goes to the lowest element
+/// shared edge or face stays in its element (the hint) when that contains it; otherwise it goes to the lowest element
 /// index of those that contain it, so the answer does not depend on the way there.
 template <int Dim>
 class Locator {
@@ -63,8 +63,9 @@ class Locator {
   explicit Locator(const Mesh<Dim>& mesh);
   explicit Locator(Mesh<Dim>&&) = delete;
 
-  /// A walk gives up after this many elements, some ten element widths beyond the old neighbourhood.
-  static constexpr int walk_limit = 128;
+  /// A walk gives up after this many elements, some ten element widths beyond the old neighbourhood in the plane and
+  /// three or more in space.
+  static constexpr int walk_limit = Dim == 2 ? 128 : 512;
 
   /// The element of x: `hint` (its last element, or -1 when there is none) first, then the elements around it in
   /// ascending order, then a walk from the nearest of these, and only then all elements. On a structured grid
@@ -104,7 +105,7 @@ class Locator {
     Vec<Dim> s;  // position in elements from the origin
     for (int k = 0; k < Dim; ++k) s[k] = (x[k] - grid.origin[k]) * inverse_spacing_[k];
     if (hint >= 0) {
-      const std::array<int, Dim> own = cell(hint);
+      const std::array<int, Dim> own = grid.cell(hint);
       bool same = true;
       for (int k = 0; k < Dim; ++k) same = same && s[k] >= own[k] - tolerance_ && s[k] <= own[k] + 1 + tolerance_;
       if (same) [[likely]] {
@@ -113,16 +114,6 @@ class Locator {
       }
     }
     return find_in_other_cell(s, hint, counts);
-  }
-
-  std::array<int, Dim> cell(int e) const {
-    std::array<int, Dim> index;
-    for (int k = 0; k + 1 < Dim; ++k) {
-      index[k] = e % mesh_->grid->elements[k];
-      e /= mesh_->grid->elements[k];
-    }
-    index[Dim - 1] = e;
-    return index;
   }
 
   static Location<Dim> place(int e, const std::array<int, Dim>& index, const Vec<Dim>& s, int steps) {
@@ -139,6 +130,7 @@ class Locator {
   bool bin_of(const Vec<Dim>& x, std::array<int, Dim>& bin) const;
   int bin_index(const std::array<int, Dim>& bin) const;
   void build_bins();
+  int choose_bins(int elements);
   template <class F>
   void for_bins_in(const Vec<Dim>& low, const Vec<Dim>& high, F&& f) const;
 
@@ -153,5 +145,6 @@ class Locator {
 };
 
 extern template class Locator<2>;
+extern template class Locator<3>;
 
 }  // namespace scarp

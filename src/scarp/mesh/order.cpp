@@ -7,9 +7,12 @@
 namespace scarp {
 namespace {
 
+constexpr int levels = 20;
+
 /// Place of the cell (x, y), of 2^levels cells a side, on the Hilbert curve (Hilbert 1891): at each level the
 /// quadrants follow as (0,0), (0,1), (1,1), (1,0), the first and last of them turned.
-std::uint64_t hilbert_place(std::uint32_t x, std::uint32_t y, int levels) {
+std::uint64_t hilbert_place(const std::array<std::uint32_t, 2>& cell) {
+  auto [x, y] = cell;
   std::uint64_t place = 0;
   for (int level = levels - 1; level >= 0; --level) {
     const std::uint32_t right = (x >> level) & 1u, up = (y >> level) & 1u;
@@ -25,46 +28,78 @@ std::uint64_t hilbert_place(std::uint32_t x, std::uint32_t y, int levels) {
   return place;
 }
 
-std::vector<Vec<2>> centres(const Mesh<2>& mesh) {
-  std::vector<Vec<2>> all(mesh.types.size());
+/// The same in space, where the eight parts of a cube follow in the order of a Gray code, so that each shares a face
+/// with the next; each part is mirrored and has axes exchanged so that its curve begins where the last one ended
+/// (J. Skilling, Programming the Hilbert curve, AIP Conf. Proc. 707 (2004) 381).
+std::uint64_t hilbert_place(std::array<std::uint32_t, 3> cell) {
+  for (std::uint32_t bit = 1u << (levels - 1); bit > 1; bit >>= 1) {
+    const std::uint32_t below = bit - 1;
+    for (std::uint32_t& coordinate : cell) {
+      if (coordinate & bit) {
+        cell[0] ^= below;
+      } else {
+        const std::uint32_t differ = (cell[0] ^ coordinate) & below;
+        cell[0] ^= differ;
+        coordinate ^= differ;
+      }
+    }
+  }
+  cell[1] ^= cell[0];
+  cell[2] ^= cell[1];
+  std::uint32_t turned = 0;
+  for (std::uint32_t bit = 1u << (levels - 1); bit > 1; bit >>= 1)
+    if (cell[2] & bit) turned ^= bit - 1;
+  std::uint64_t place = 0;
+  for (int level = levels - 1; level >= 0; --level)
+    for (const std::uint32_t coordinate : cell) place = 2 * place + (((coordinate ^ turned) >> level) & 1u);
+  return place;
+}
+
+template <int Dim>
+std::vector<Vec<Dim>> centres(const Mesh<Dim>& mesh) {
+  std::vector<Vec<Dim>> all(mesh.types.size());
   for (int e = 0; e < mesh.element_count(); ++e) {
     const auto nodes = mesh.element_nodes(e);
     for (int node : nodes)
-      for (int k = 0; k < 2; ++k) all[e][k] += mesh.nodes[node][k] / static_cast<double>(nodes.size());
+      for (int k = 0; k < Dim; ++k) all[e][k] += mesh.nodes[node][k] / static_cast<double>(nodes.size());
   }
   return all;
 }
 
-std::vector<int> elements_along_curve(const Mesh<2>& mesh) {
-  constexpr int levels = 20;
-  const std::vector<Vec<2>> centre = centres(mesh);
-  Vec<2> low = centre[0], high = low;
-  for (const Vec<2>& x : centre)
-    for (int k = 0; k < 2; ++k) {
+template <int Dim>
+std::vector<int> elements_along_curve(const Mesh<Dim>& mesh) {
+  const std::vector<Vec<Dim>> centre = centres(mesh);
+  Vec<Dim> low = centre[0], high = low;
+  for (const Vec<Dim>& x : centre)
+    for (int k = 0; k < Dim; ++k) {
       low[k] = std::min(low[k], x[k]);
       high[k] = std::max(high[k], x[k]);
     }
-  const double extent = std::max(high[0] - low[0], high[1] - low[1]);
+  double extent = 0;
+  for (int k = 0; k < Dim; ++k) extent = std::max(extent, high[k] - low[k]);
   // An odd margin keeps the centres of regular meshes off the cells' lines, where the last bit of a coordinate would
   // decide.
   const double margin = 0.0137 * extent, cells = (1u << levels) / (extent > 0 ? 1.03 * extent : 1.0);
   std::vector<std::pair<std::uint64_t, int>> places;
+  places.reserve(mesh.types.size());
   for (int e = 0; e < mesh.element_count(); ++e) {
-    std::array<std::uint32_t, 2> cell;
-    for (int k = 0; k < 2; ++k) cell[k] = static_cast<std::uint32_t>((centre[e][k] - low[k] + margin) * cells);
-    places.emplace_back(hilbert_place(cell[0], cell[1], levels), e);
+    std::array<std::uint32_t, Dim> cell;
+    for (int k = 0; k < Dim; ++k) cell[k] = static_cast<std::uint32_t>((centre[e][k] - low[k] + margin) * cells);
+    places.emplace_back(hilbert_place(cell), e);
   }
   std::sort(places.begin(), places.end());
   std::vector<int> order;
+  order.reserve(places.size());
   for (const auto& [place, e] : places) order.push_back(e);
   return order;
 }
 
 }  // namespace
 
-void order_along_curve(Mesh<2>& mesh) {
+template <int Dim>
+void order_along_curve(Mesh<Dim>& mesh) {
   if (mesh.types.empty()) return;
-  Mesh<2> sorted;
+  Mesh<Dim> sorted;
   std::vector<int> number(mesh.nodes.size(), -1);
   sorted.offsets.push_back(0);
   for (int e : elements_along_curve(mesh)) {
@@ -86,5 +121,8 @@ void order_along_curve(Mesh<2>& mesh) {
   }
   mesh = std::move(sorted);
 }
+
+template void order_along_curve(Mesh<2>&);
+template void order_along_curve(Mesh<3>&);
 
 }  // namespace scarp

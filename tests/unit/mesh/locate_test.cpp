@@ -198,6 +198,7 @@ TEST(Locate, GridAgreesWithTheSameElementsSearched) {
   const Mesh<2> grid = make_grid({-1, 2}, {3, 2}, {12, 10});
   Mesh<2> plain = grid;
   plain.grid.reset();
+  build_around(plain);
   const Locator<2> direct(grid), searched(plain);
   std::mt19937 random(10);
   std::uniform_real_distribution<double> ux(-1.2, 2.2), uy(1.8, 4.2);
