@@ -139,8 +139,8 @@ TEST(SuddenlyLoadedColumn, DisplacementOfTheTopFollowsTheSeries) {
       if (points.id[p] != top) continue;
       const double y0 = Column::H - 0.125;
       const double exact = column_displacement(y0, t, Column::H, Column::rho * Column::g, Column::M, Column::rho);
-      worst = std::max(worst, std::abs(points.u[1][p] - exact));
-      twice = points.u[1][p];
+      worst = std::max(worst, std::abs(points.u(1, p) - exact));
+      twice = points.u(1, p);
     }
   });
   // Strains reach 4 %, of which the small-strain oracle knows nothing: the geometry's share is of that order.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "body_maker.hpp"
+#include "scarp/transfer/transfer.hpp"
 
 namespace scarp::verification {
 namespace {
@@ -32,7 +33,7 @@ double stress_noise(double cells, double points_per_cell, Quadrature quadrature)
   double worst = 0;
   const auto& points = body.blocks[0].points;
   for (int p = 0; p < points.size(); ++p) {
-    const double place = points.x[0][p] - points.u[0][p] - 4;
+    const double place = points.x[0][p] - points.u(0, p) - 4;
     if (place < reached || place > length - reached) continue;
     worst = std::max(worst, std::abs(points.sigma[0][p] - sigma_0));
   }
@@ -109,20 +110,22 @@ TEST(RigidRotation, TurnsStressBetaAndCentreWithTheBody) {
   constexpr int steps = 100;
   const double angle = std::numbers::pi / 2,
                w = 2 * std::tan(angle / steps / 2);  // exact turn per step by Hughes–Winget
+  Strains<2> strains;
+  strains.reserve(block.size());
   for (int s = 0; s < steps; ++s) {
-    for (auto& points : {&block.points}) {
-      for (auto& strain : points->deps) std::fill(strain.begin(), strain.end(), 0.0);
-      // ω dt = w: L dt = [[0, −w], [w, 0]], from nodal velocities through step 6.
-      for (int slot = 0; slot < body.active.size(); ++slot) {
-        const int e = body.active.element[slot];
-        const auto x_i = node_positions<Q4>(*body.mesh, e);
-        std::array<Vec<2>, 4> v_i;
-        for (int i = 0; i < 4; ++i) v_i[i] = {-w * x_i[i][1], w * x_i[i][0]};
-        const transfer::Range range{block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]};
-        transfer::nodes_to_points<Q4>(x_i, {}, v_i, 1.0, *points, range);
-      }
+    // ω dt = w: L dt = [[0, −w], [w, 0]], from nodal displacements through step 6.
+    for (int slot = 0; slot < body.active.size(); ++slot) {
+      const int e = body.active.element[slot];
+      const auto x_i = node_positions<Q4>(*body.mesh, e);
+      std::array<Vec<2>, 4> du_i;
+      for (int i = 0; i < 4; ++i) du_i[i] = {-w * x_i[i][1], w * x_i[i][0]};
+      transfer::nodes_to_points<GridLinear<2>>(
+          GridLinear<2>::Cell(*body.mesh, e), {}, du_i, body.mesh->size[e], block.points,
+          {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, strains,
+          block.begin[slot], [](const auto&...) {});
     }
-    exec::update_stresses(block, 0.0, body.mesh->size, {});
+    exec::StressBooks books;
+    exec::update_stresses(block, {block.order.data(), block.size()}, strains, 0, 1.0, {}, books);
   }
   const auto sigma_exact = turned(sigma, angle), beta_exact = turned(beta, angle), a_exact = turned(a, angle);
   for (int p = 0; p < block.size(); ++p) {

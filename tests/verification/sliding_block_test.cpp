@@ -22,7 +22,7 @@ double travel(double theta, double mu, double time) {
   run_until(body, time, 0.3, {}, [](double, const StepBooks<2>&) {});
   double moved = 0;
   const auto& points = body.blocks[0].points;
-  for (int p = 0; p < points.size(); ++p) moved += points.u[0][p] / points.size();
+  for (int p = 0; p < points.size(); ++p) moved += points.u(0, p) / points.size();
   return moved;
 }
 

@@ -12,6 +12,14 @@ int set_threads(int count) {
   return omp_get_max_threads();
 }
 
+int thread_count() {
+  return omp_get_max_threads();
+}
+
+int thread_number() {
+  return omp_get_thread_num();
+}
+
 void wait_politely(char** argv) {
   for (const char* name : {"OMP_WAIT_POLICY", "GOMP_SPINCOUNT"}) {
     if (std::getenv(name)) return;

@@ -23,27 +23,34 @@ void for_each(int count, F&& f) {
   for (int i = 0; i < count; ++i) f(i);
 }
 
-/// Σ f(first, last) over chunks [first, last) of 0 ≤ i < count, added in order with Sum::operator+=. An exception of f
-/// is thrown on after the loop, that of the first chunk in order.
+/// The number of threads that a loop may use, and the number of the calling one among them.
+int thread_count();
+int thread_number();
+
+/// f(first, last, sum) for chunks [first, last) of 0 ≤ i < count, each with a sum of its own; total += those sums, in
+/// order. `partial` keeps them, so that nothing is allocated in a step. Chunks are dealt out to threads in the same way
+/// each time. An exception of f is thrown on after the loop, that of the first chunk in order.
 template <class Sum, class F>
-Sum sum_over_chunks(int count, int chunk, F&& f) {
+void sum_over_chunks(int count, int chunk, std::vector<Sum>& partial, Sum& total, F&& f) {
   const int chunks = (count + chunk - 1) / chunk;
-  std::vector<Sum> partial(static_cast<std::size_t>(chunks));
-  std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(chunks));
-#pragma omp parallel for schedule(dynamic, 1) if (chunks > 1)
+  if (partial.size() < static_cast<std::size_t>(chunks)) partial.resize(static_cast<std::size_t>(chunks));
+  int first_thrown = chunks;
+  std::exception_ptr thrown;
+#pragma omp parallel for schedule(static) if (chunks > 1)
   for (int c = 0; c < chunks; ++c) {
+    partial[c] = Sum{};
     try {
-      partial[c] = f(c * chunk, std::min(count, (c + 1) * chunk));
+      f(c * chunk, std::min(count, (c + 1) * chunk), partial[c]);
     } catch (...) {
-      thrown[c] = std::current_exception();
+#pragma omp critical
+      if (c < first_thrown) {
+        first_thrown = c;
+        thrown = std::current_exception();
+      }
     }
   }
-  Sum sum{};
-  for (int c = 0; c < chunks; ++c) {
-    if (thrown[c]) std::rethrow_exception(thrown[c]);
-    sum += partial[c];
-  }
-  return sum;
+  if (thrown) std::rethrow_exception(thrown);
+  for (int c = 0; c < chunks; ++c) total += partial[c];
 }
 
 }  // namespace scarp::exec

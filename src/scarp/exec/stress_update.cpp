@@ -3,187 +3,184 @@
 #include <array>
 #include <cmath>
 
-#include "scarp/exec/parallel.hpp"
 #include "scarp/material/integrate/lanes.hpp"
 #include "scarp/tensor/batch.hpp"
 
 namespace scarp::exec {
 namespace {
 
-constexpr int W = static_cast<int>(batch_lanes);
-constexpr int chunk_points = 64 * W;
+constexpr int W = lanes_of<Batch>;
 
-/// Lanes i ... i + count - 1 of a column; past the end of the column the last lane is repeated.
-Batch load(const std::vector<double>& column, int i, int count) {
-  if (count == W) return Batch::load_unaligned(column.data() + i);
-  std::array<double, W> lanes;
-  for (int l = 0; l < W; ++l) lanes[l] = column[i + std::min(l, count - 1)];
-  return Batch::load_unaligned(lanes.data());
-}
-
-void store(const Batch& value, std::vector<double>& column, int i, int count) {
-  if (count == W) {
-    value.store_unaligned(column.data() + i);
-    return;
-  }
-  std::array<double, W> lanes;
-  value.store_unaligned(lanes.data());
-  for (int l = 0; l < count; ++l) column[i + l] = lanes[l];
-}
-
-bool lane(const xsimd::batch_bool<double>& mask, int l) {
-  return mask.get(static_cast<std::size_t>(l));
-}
-
-/// Time that a compression wave and the point itself need to cross the point's element; infinite without stiffness.
-template <int Dim>
-double crossing_time(const Points<Dim>& points, int p, double modulus, const std::vector<double>& element_size) {
-  if (!(modulus > 0)) return std::numeric_limits<double>::infinity();
-  double v2 = 0;
-  for (int j = 0; j < Dim; ++j) v2 += points.v[j][p] * points.v[j][p];
-  // Where a point stands for more than its volume, its stiffness does too.
-  const double volume = points.volume[p] * std::max(1.0, points.weight[p]);
-  const double c = std::sqrt(modulus * volume / points.mass[p]);
-  return element_size[points.element[p]] / (c + std::sqrt(v2));
-}
-
-/// The stress update of one block with one law; the only text that knows both sign conventions: tension positive in the
-/// arrays of the points, compression positive in the law.
+/// The stress update of points of one block with one law; the only text that knows both sign conventions: tension
+/// positive in the arrays of the points, compression positive in the law.
 template <class Model, int Dim>
-class Sweep {
+class Update {
   static constexpr int N = sym_size<Dim>;
   template <class T>
   using State = typename Model::template State<T, N>;
+  using Increments = Strains<Dim>;
 
  public:
-  Sweep(const Model& model, Block<Dim>& block, double dt, const std::vector<double>& element_size,
-        const IntegrationSettings& settings)
-      : model_(model), block_(block), points_(block.points), dt_(dt), size_(element_size), settings_(settings) {}
+  Update(const Model& model, Block<Dim>& block, const Strains<Dim>& strains, double dt,
+         const IntegrationSettings& settings, StressBooks& books)
+      : model_(model),
+        block_(block),
+        points_(block.points),
+        strains_(strains),
+        dt_(dt),
+        settings_(settings),
+        books_(books) {}
 
-  StressBooks operator()(int first, int last) {
-    StressBooks books;
-    Stragglers stragglers;
-    for (int i = first; i < last; i += W) batch(i, std::min(W, last - i), books, stragglers);
-    finish(stragglers, books);
-    return books;
+  void operator()(PointRange range, int at) {
+    for_each_batch<Batch>(range, [&](const Lanes<Batch>& p, int first) { batch(p, at + first); });
+    finish_stragglers();
+    books_.work += xsimd::hadd(work_);
+    std::array<double, W> least;
+    critical_.store_unaligned(least.data());
+    for (const double dt : least) books_.critical_dt = std::min(books_.critical_dt, dt);
   }
 
  private:
-  /// Points of a chunk whose increment is too large for one substep.
-  struct Stragglers {
-    std::array<int, chunk_points> point;
-    int count = 0;
+  /// A point, and where its strains are.
+  struct Straggler {
+    int point, at;
   };
 
-  void batch(int i, int count, StressBooks& books, Stragglers& stragglers) {
-    const State<Batch> old = load_state(i, count);
+  void batch(const Lanes<Batch>& p, int at) {
+    const State<Batch> old = load_state(p);
     Sym<Batch, N> deps;
-    for (int c = 0; c < N; ++c) deps[c] = -load(points_.deps[c], i, count);
+    for (int c = 0; c < N; ++c) deps[c] = -increment(strains_.deps[c], at);
     Spin<Batch, N> spin;
-    for (std::size_t c = 0; c < spin.w.size(); ++c) spin.w[c] = load(points_.spin[c], i, count);
+    for (std::size_t c = 0; c < spin.w.size(); ++c) spin.w[c] = increment(strains_.spin[c], at);
     State<Batch> turned = old;
     rotate(model_, turned, Rotation<Batch, N>(spin));
 
     const auto trial =
         attempt<ModifiedEuler>(model_, turned, Increment<Batch, N>{deps, Batch(dt_)}, settings_.tolerance);
     const auto good = trial.notes.sound && (trial.error <= Batch(settings_.tolerance));
-    store_state(select_state(good, trial.state, old), i, count);
+    p.store(p.load(points_.eps_q) + Batch(0.81649658092772603273) * norm(deviator(deps)), points_.eps_q);
 
-    const Batch Omega = load(points_.weight, i, count) * load(points_.volume, i, count) *
-                        (Batch(1.0) + Batch(0.5) * trace(deps));  // of mid-step
-    std::array<double, W> work, modulus;
-    (Omega * Batch(0.5) * dot(turned.sigma + trial.state.sigma, deps)).store_unaligned(work.data());
-    model_.p_wave_modulus(trial.state).store_unaligned(modulus.data());
-    const Batch eps_q = load(points_.eps_q, i, count) + Batch(0.81649658092772603273) * norm(deviator(deps));
-    store(eps_q, points_.eps_q, i, count);
-
-    for (int l = 0; l < count; ++l) {
-      const int p = i + l;
-      if (lane(good, l)) {
-        const Notes<double> notes{lane(trial.notes.corrected, l), lane(trial.notes.on_floor, l),
-                                  lane(trial.notes.separated, l), true};
-        books.work += work[l];
-        record(p, 1, notes, IntegrationEnd::done, books);
-        time_step(p, modulus[l], books);
+    const unsigned present = first_bits(p.count()), done = bits_of(good) & present;
+    const Batch work = increment(strains_.volume, at) * Batch(0.5) * dot(turned.sigma + trial.state.sigma, deps);
+    const Batch modulus = model_.p_wave_modulus(trial.state);
+    const auto stiff = modulus > Batch(0.0);
+    const Batch time = crossing_time(modulus, at);
+    const unsigned noted = bits_of(trial.notes.corrected || trial.notes.on_floor || trial.notes.separated || !stiff);
+    if (done == first_bits(W) && (noted & present) == 0) [[likely]] {
+      store_state(trial.state, p);
+      work_ += work;
+      critical_ = min(critical_, time);
+      p.store(std::uint8_t{0}, points_.flags);
+      p.store(std::uint8_t{1}, points_.substeps);
+      books_.substeps += W;
+      books_.most_substeps = std::max(books_.most_substeps, 1);
+      return;
+    }
+    store_state(select_state(good, trial.state, old), p);
+    for (int l = 0; l < p.count(); ++l) {
+      if (done >> l & 1u) {
+        const auto lane = static_cast<std::size_t>(l);
+        books_.work += work.get(lane);
+        record(p.point(l), 1,
+               {trial.notes.corrected.get(lane), trial.notes.on_floor.get(lane), trial.notes.separated.get(lane), true},
+               IntegrationEnd::done);
+        bound_time_step(modulus.get(lane), at + l);
       } else {
-        stragglers.point[stragglers.count++] = p;
+        straggler(p.point(l), at + l);
       }
     }
   }
 
+  /// A point whose increment is too large for one substep.
+  void straggler(int p, int at) {
+    stragglers_[straggler_count_++] = {p, at};
+    if (straggler_count_ == static_cast<int>(stragglers_.size())) finish_stragglers();
+  }
+
   /// Each with its own substeps, as many at once as a batch has lanes.
-  void finish(const Stragglers& stragglers, StressBooks& books) {
+  void finish_stragglers() {
     integrate_lanes<ModifiedEuler, Model, N>(
-        model_, stragglers.count, [&](int i) { return turned_point(stragglers.point[i]); },
+        model_, straggler_count_, [&](int i) { return turned_point(stragglers_[i]); },
         [&](int i, const State<double>& end, const IntegrationReport& report) {
-          const int p = stragglers.point[i];
-          const auto start = turned_point(p);  // the columns still hold the start
-          const Sym<double, N>& deps = start.whole.deps;
-          books.work += points_.weight[p] * points_.volume[p] * (1 + 0.5 * trace(deps)) * 0.5 *
-                        dot(start.state.sigma + end.sigma, deps);
+          const auto [p, at] = stragglers_[i];
+          const auto start = turned_point(stragglers_[i]);  // the columns still hold the start
+          books_.work += strains_.volume[at] * 0.5 * dot(start.state.sigma + end.sigma, start.whole.deps);
           store_state(end, p);
-          record(p, report.substeps, report.notes, report.end, books);
-          time_step(p, model_.p_wave_modulus(end), books);
+          record(p, report.substeps, report.notes, report.end);
+          bound_time_step(model_.p_wave_modulus(end), at);
         },
         settings_, 0.5);
+    straggler_count_ = 0;
   }
 
   /// The state of a point, turned with the body, and its increment.
-  Task<Model, N> turned_point(int p) const {
+  Task<Model, N> turned_point(const Straggler& straggler) const {
+    const auto [p, at] = straggler;
     Task<Model, N> task{load_state(p), {{}, dt_}};
-    for (int c = 0; c < N; ++c) task.whole.deps[c] = -points_.deps[c][p];
+    for (int c = 0; c < N; ++c) task.whole.deps[c] = -strains_.deps[c][at];
     Spin<double, N> spin;
-    for (std::size_t c = 0; c < spin.w.size(); ++c) spin.w[c] = points_.spin[c][p];
+    for (std::size_t c = 0; c < spin.w.size(); ++c) spin.w[c] = strains_.spin[c][at];
     rotate(model_, task.state, Rotation<double, N>(spin));
     return task;
   }
 
-  void record(int p, int substeps, const Notes<double>& notes, IntegrationEnd end, StressBooks& books) {
+  void record(int p, int substeps, const Notes<double>& notes, IntegrationEnd end) {
     const bool failed = end != IntegrationEnd::done;
     points_.flags[p] =
         static_cast<std::uint8_t>((notes.separated ? flag_separated : 0) | (notes.on_floor ? flag_on_floor : 0) |
                                   (failed ? flag_failed : 0) | (notes.corrected ? flag_corrected : 0));
     points_.substeps[p] = static_cast<std::uint8_t>(std::min(substeps, 255));
-    books.substeps += substeps;
-    books.most_substeps = std::max(books.most_substeps, substeps);
-    books.separated += notes.separated;
-    books.on_floor += notes.on_floor;
-    books.corrected += notes.corrected;
-    if (failed && books.failures++ == 0) {
-      books.failed_id = points_.id[p];
-      books.failed_end = end;
+    books_.substeps += substeps;
+    books_.most_substeps = std::max(books_.most_substeps, substeps);
+    books_.separated += notes.separated;
+    books_.on_floor += notes.on_floor;
+    books_.corrected += notes.corrected;
+    if (failed && books_.failures++ == 0) {
+      books_.failed_id = points_.id[p];
+      books_.failed_end = end;
     }
   }
 
-  void time_step(int p, double modulus, StressBooks& books) const {
-    if (!(modulus > 0)) ++books.no_stiffness;
-    books.critical_dt = std::min(books.critical_dt, crossing_time(points_, p, modulus, size_));
+  /// Time that a compression wave and the point itself need to cross the point's element.
+  Batch crossing_time(const Batch& modulus, int at) const {
+    return increment(strains_.size, at) /
+           (sqrt(modulus * increment(strains_.per_mass, at)) + sqrt(increment(strains_.speed2, at)));
+  }
+  void bound_time_step(double modulus, int at) {
+    if (!(modulus > 0)) {
+      ++books_.no_stiffness;
+      return;
+    }
+    const double speed = std::sqrt(modulus * strains_.per_mass[at]) + std::sqrt(strains_.speed2[at]);
+    books_.critical_dt = std::min(books_.critical_dt, strains_.size[at] / speed);
   }
 
-  State<Batch> load_state(int i, int count) const {
+  static Batch increment(const std::vector<double>& column, int at) {
+    return Batch::load_unaligned(column.data() + at);
+  }
+
+  State<Batch> load_state(const Lanes<Batch>& p) const {
     State<Batch> s;
     const int columns = state_columns<N>(model_);
     int c = 0;
     for_each_component(
         [&](Batch& x) {
-          x = c < N             ? -load(points_.sigma[c], i, count)
-              : c - N < columns ? load(block_.state[c - N], i, count)
-                                : Batch(0.0);
+          x = c < N ? -p.load(points_.sigma[c]) : c - N < columns ? p.load(block_.state[c - N]) : Batch(0.0);
           ++c;
         },
         s);
     return s;
   }
 
-  void store_state(const State<Batch>& s, int i, int count) {
+  void store_state(const State<Batch>& s, const Lanes<Batch>& p) {
     const int columns = state_columns<N>(model_);
     int c = 0;
     for_each_component(
         [&](const Batch& x) {
           if (c < N) {
-            store(-x, points_.sigma[c], i, count);
+            p.store(-x, points_.sigma[c]);
           } else if (c - N < columns) {
-            store(x, block_.state[c - N], i, count);
+            p.store(x, block_.state[c - N]);
           }
           ++c;
         },
@@ -216,9 +213,13 @@ class Sweep {
   const Model& model_;
   Block<Dim>& block_;
   Points<Dim>& points_;
+  const Strains<Dim>& strains_;
   double dt_;
-  const std::vector<double>& size_;
-  IntegrationSettings settings_;
+  const IntegrationSettings& settings_;
+  StressBooks& books_;
+  std::array<Straggler, 64> stragglers_;
+  int straggler_count_ = 0;
+  Batch work_ = Batch(0.0), critical_ = Batch(std::numeric_limits<double>::infinity());
 };
 
 }  // namespace
@@ -241,29 +242,35 @@ StressBooks& StressBooks::operator+=(const StressBooks& other) {
 }
 
 template <int Dim>
-StressBooks update_stresses(Block<Dim>& block, double dt, const std::vector<double>& element_size,
-                            const IntegrationSettings& settings) {
-  return std::visit(
-      [&]<class Model>(const Model& model) {
-        Sweep<Model, Dim> sweep(model, block, dt, element_size, settings);
-        return sum_over_chunks<StressBooks>(block.size(), chunk_points,
-                                            [&](int first, int last) { return sweep(first, last); });
-      },
-      block.model);
+void update_stresses(Block<Dim>& block, PointRange range, const Strains<Dim>& strains, int at, double dt,
+                     const IntegrationSettings& settings, StressBooks& books) {
+  std::visit([&]<class Model>(
+                 const Model& model) { Update<Model, Dim>(model, block, strains, dt, settings, books)(range, at); },
+             block.model);
 }
 
 template <int Dim>
-double critical_time_step(const Block<Dim>& block, const std::vector<double>& element_size) {
+double critical_time_step(const Block<Dim>& block, const std::vector<double>& element_size,
+                          const ActiveElements& active, const std::vector<double>& weight) {
+  const auto& points = block.points;
   double dt = std::numeric_limits<double>::infinity();
   for (int i = 0; i < block.size(); ++i) {
     with_state(block, i, [&](const auto& model, const auto& state) {
-      dt = std::min(dt, crossing_time(block.points, i, model.p_wave_modulus(state), element_size));
+      const double modulus = model.p_wave_modulus(state);
+      if (!(modulus > 0)) return;
+      double v2 = 0;
+      for (int j = 0; j < Dim; ++j) v2 += points.v[j][i] * points.v[j][i];
+      const int e = points.element[i];
+      const double per_mass = std::max(1.0, weight[active.slot[e]]) * points.volume[i] / points.mass[i];
+      dt = std::min(dt, element_size[e] / (std::sqrt(modulus * per_mass) + std::sqrt(v2)));
     });
   }
   return dt;
 }
 
-template StressBooks update_stresses<2>(Block<2>&, double, const std::vector<double>&, const IntegrationSettings&);
-template double critical_time_step<2>(const Block<2>&, const std::vector<double>&);
+template void update_stresses<2>(Block<2>&, PointRange, const Strains<2>&, int, double, const IntegrationSettings&,
+                                 StressBooks&);
+template double critical_time_step<2>(const Block<2>&, const std::vector<double>&, const ActiveElements&,
+                                      const std::vector<double>&);
 
 }  // namespace scarp::exec

@@ -1,4 +1,4 @@
-// Step 7 of the report for all points of a block: rotation, stress and state, many points per instruction. Points whose
+// Step 7 of the report for points of a block: rotation, stress and state, many points per instruction. Points whose
 // increment needs more than one substep are finished apart.
 #pragma once
 
@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "scarp/material/integrate/embedded.hpp"
+#include "scarp/points/lanes.hpp"
 #include "scarp/points/points.hpp"
+#include "scarp/transfer/strains.hpp"
 
 namespace scarp::exec {
 
@@ -25,16 +27,18 @@ struct StressBooks {
   StressBooks& operator+=(const StressBooks& other);
 };
 
-/// Updates stress, state, strain measures and flags of all points from their deps and spin over the time dt.
-/// `element_size` is the mesh's, for the critical time step.
+/// Updates stress, state, shear strain and flags of some points of a block over the time dt, from their strain and spin
+/// increments in `strains` from place `at` on.
 template <int Dim>
-StressBooks update_stresses(Block<Dim>& block, double dt, const std::vector<double>& element_size,
-                            const IntegrationSettings& settings);
+void update_stresses(Block<Dim>& block, PointRange range, const Strains<Dim>& strains, int at, double dt,
+                     const IntegrationSettings& settings, StressBooks& books);
 
 /// The least h / (c + |v|) over the points of a block, with c the compression wave speed of their present stiffness;
-/// infinite where no point has stiffness.
+/// infinite where no point has stiffness. `weight` is that of the points in the quadrature of the active element in
+/// each slot.
 template <int Dim>
-double critical_time_step(const Block<Dim>& block, const std::vector<double>& element_size);
+double critical_time_step(const Block<Dim>& block, const std::vector<double>& element_size,
+                          const ActiveElements& active, const std::vector<double>& weight);
 
 /// Calls f(model, state of point i with N components, compression positive) for point i of a block.
 template <int Dim, class F>

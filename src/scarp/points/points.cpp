@@ -8,47 +8,90 @@ namespace scarp {
 namespace {
 
 /// column[i] = column[order[i]]
+template <class Spare>
 struct Permute {
   const std::vector<int>& order;
+  Spare& spare;
 
   template <class Value>
   void operator()(std::vector<Value>& column) const {
-    std::vector<Value> arranged(column.size());
+    auto& arranged = std::get<std::vector<Value>>(spare);
+    arranged.resize(column.size());
     for (std::size_t i = 0; i < order.size(); ++i) arranged[i] = column[order[i]];
     column.swap(arranged);
   }
 };
 
-}  // namespace
-
+/// Elements that hold points and are not active yet get the slot `taken` and go to active.fresh.
 template <int Dim>
-void sort_by_element(std::vector<Block<Dim>>& blocks, int element_count, ActiveElements& active) {
-  active.slot.assign(element_count, -1);
+void find_fresh(const std::vector<Block<Dim>>& blocks, ActiveElements& active) {
+  constexpr int taken = 0;
+  active.fresh.clear();
+  for (const auto& block : blocks) {
+    for (const int e : block.points.element) {
+      if (active.slot[e] >= 0) continue;
+      active.slot[e] = taken;
+      active.fresh.push_back(e);
+    }
+  }
+  std::sort(active.fresh.begin(), active.fresh.end());
+}
+
+/// Merges the fresh elements into the active ones, and takes out those that hold no point any more.
+template <int Dim>
+bool update_active(const std::vector<Block<Dim>>& blocks, ActiveElements& active) {
+  constexpr int empty = -2;
+  auto& list = active.element;
+  for (const int e : list) active.slot[e] = empty;
   for (const auto& block : blocks) {
     for (const int e : block.points.element) active.slot[e] = 0;
   }
-  active.element.clear();
-  for (int e = 0; e < element_count; ++e) {
-    if (active.slot[e] < 0) continue;
-    active.slot[e] = active.size();
-    active.element.push_back(e);
+  const auto kept = std::remove_if(list.begin(), list.end(), [&](int e) {
+    const bool gone = active.slot[e] == empty;
+    if (gone) active.slot[e] = -1;
+    return gone;
+  });
+  const bool changed = kept != list.end() || !active.fresh.empty();
+  list.erase(kept, list.end());
+  // Merged from the back, in place.
+  auto from = static_cast<std::ptrdiff_t>(list.size()) - 1,
+       fresh = static_cast<std::ptrdiff_t>(active.fresh.size()) - 1;
+  list.resize(list.size() + active.fresh.size());
+  for (auto to = static_cast<std::ptrdiff_t>(list.size()) - 1; fresh >= 0; --to) {
+    list[to] = from >= 0 && list[from] > active.fresh[fresh] ? list[from--] : active.fresh[fresh--];
   }
-  for (auto& block : blocks) {
-    auto& begin = block.begin;
-    begin.assign(active.size() + 1, 0);
-    for (const int e : block.points.element) ++begin[active.slot[e] + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    block.order.resize(block.size());
-    std::vector<int> next(begin.begin(), begin.end() - 1);
-    for (int i = 0; i < block.size(); ++i) block.order[next[active.slot[block.points.element[i]]]++] = i;
-  }
+  for (int s = 0; s < active.size(); ++s) active.slot[list[s]] = s;
+  return changed;
+}
+
+/// Counting sort of a block's points by the slots of their elements.
+template <int Dim>
+void sort_by_slot(Block<Dim>& block, const ActiveElements& active) {
+  auto& begin = block.begin;
+  begin.assign(static_cast<std::size_t>(active.size()) + 2, 0);
+  for (const int e : block.points.element) ++begin[active.slot[e] + 2];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  // begin[s + 1] is where slot s starts, and where it ends once its points are in.
+  block.order.resize(block.size());
+  for (int i = 0; i < block.size(); ++i) block.order[begin[active.slot[block.points.element[i]] + 1]++] = i;
+}
+
+}  // namespace
+
+template <int Dim>
+bool sort_by_element(std::vector<Block<Dim>>& blocks, int element_count, ActiveElements& active) {
+  active.slot.resize(element_count, -1);
+  find_fresh(blocks, active);
+  const bool changed = update_active(blocks, active);
+  for (auto& block : blocks) sort_by_slot(block, active);
+  return changed;
 }
 
 template <int Dim>
 void arrange_in_order(std::vector<Block<Dim>>& blocks) {
   for (auto& block : blocks) {
     if (std::is_sorted(block.order.begin(), block.order.end())) continue;
-    for_each_column(block, Permute{block.order});
+    for_each_column(block, Permute<decltype(block.spare)>{block.order, block.spare});
     std::iota(block.order.begin(), block.order.end(), 0);
   }
 }
@@ -65,7 +108,7 @@ void remove_points(Block<Dim>& block, const std::vector<std::uint8_t>& gone) {
   });
 }
 
-template void sort_by_element<2>(std::vector<Block<2>>&, int, ActiveElements&);
+template bool sort_by_element<2>(std::vector<Block<2>>&, int, ActiveElements&);
 template void arrange_in_order<2>(std::vector<Block<2>>&);
 template void remove_points<2>(Block<2>&, const std::vector<std::uint8_t>&);
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -30,19 +31,18 @@ struct Points {
 
   Column mass;                            ///< m_p
   Column volume, initial_volume;          ///< Ω_p
-  std::array<Column, Dim> x, v, u, xi;    ///< position, velocity, displacement, local coordinates in the element
+  std::array<Column, Dim> x, v, x_start;  ///< position, velocity, and the position that displacements count from
+  std::array<Column, Dim> xi;             ///< local coordinates in the element; empty where the mesh needs none stored
   std::array<Column, stress_size> sigma;  ///< Cauchy stress, Mandel components
   Column eps_q;                           ///< ∫ √(2/3) ‖dev dε‖
   std::vector<int> element;               ///< element that holds the point
   std::vector<int> id;                    ///< number at the start of the computation
   std::vector<std::uint8_t> flags;        ///< PointFlag bits
   std::vector<std::uint8_t> substeps;     ///< of the last stress update, at most 255
-  // Of the step under way:
-  std::array<Column, stress_size> deps;     ///< strain increment (eq. 10), Mandel components
-  std::array<Column, spin_size<Dim>> spin;  ///< spin increment (eq. 11): W_xy (, W_yz, W_zx)
-  Column weight;                            ///< volume that stands for the point in its element's quadrature / Ω_p
 
   int size() const { return static_cast<int>(mass.size()); }
+  /// Component j of the displacement of point i.
+  double u(int j, int i) const { return x[j][i] - x_start[j][i]; }
 };
 
 /// The points of one region, with their law and its state.
@@ -63,21 +63,23 @@ struct Block {
   // Order by element, kept by sort_by_element(): the points of the active element in slot s are
   // order[begin[s]] ... order[begin[s + 1] - 1].
   std::vector<int> order, begin;
+  std::tuple<std::vector<double>, std::vector<int>, std::vector<std::uint8_t>> spare;  ///< for arrange_in_order()
 
   int size() const { return points.size(); }
 };
 
-/// f(column) for each array of a block that has one entry per point (not order and begin).
+/// f(column) for each array of a block that has one entry per point (not order, begin and spare).
 template <int Dim, class F>
 void for_each_column(Block<Dim>& b, F&& f) {
   auto& p = b.points;
-  for (auto* column : {&p.mass, &p.volume, &p.initial_volume, &p.eps_q, &p.weight}) f(*column);
-  for (auto* group : {&p.x, &p.v, &p.u, &p.xi}) {
+  for (auto* column : {&p.mass, &p.volume, &p.initial_volume, &p.eps_q}) f(*column);
+  for (auto* group : {&p.x, &p.v, &p.x_start}) {
     for (auto& column : *group) f(column);
   }
+  for (auto& column : p.xi) {
+    if (!column.empty()) f(column);
+  }
   for (auto& column : p.sigma) f(column);
-  for (auto& column : p.deps) f(column);
-  for (auto& column : p.spin) f(column);
   f(p.element);
   f(p.id);
   f(p.flags);
@@ -95,14 +97,16 @@ void resize(Block<Dim>& block, int size) {
 struct ActiveElements {
   std::vector<int> element;  ///< of each slot
   std::vector<int> slot;     ///< of each element of the mesh; -1 where it holds no point
+  std::vector<int> fresh;    ///< elements that were not active before; scratch of sort_by_element()
 
   int size() const { return static_cast<int>(element.size()); }
 };
 
-/// Finds the active elements and orders the points of every block by them (stable: within an element by position in the
-/// arrays), after points have changed element.
+/// Orders the points of every block by element after points have changed element or gone (stable: within an element by
+/// position in the arrays), and brings the active elements up to date; costs nothing for elements without points.
+/// Returns whether the active elements are others than before.
 template <int Dim>
-void sort_by_element(std::vector<Block<Dim>>& blocks, int element_count, ActiveElements& active);
+bool sort_by_element(std::vector<Block<Dim>>& blocks, int element_count, ActiveElements& active);
 
 /// Puts the arrays of every block into the order of sort_by_element(), so that sweeps over elements stream through
 /// memory.

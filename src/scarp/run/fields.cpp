@@ -43,12 +43,14 @@ class Collector {
     fields_.push_back({name, 1, std::move(data)});
   }
 
-  void vector(const std::string& name, const std::array<std::vector<double>, 2> Points<2>::*member) {
+  /// component(points, i, j) → double
+  template <class F>
+  void vector(const std::string& name, F&& component) {
     std::vector<double> data;
     data.reserve(3 * places_.size());
     for (const auto& at : places_) {
-      const auto& columns = body_.blocks[at.block].points.*member;
-      data.insert(data.end(), {columns[0][at.index], columns[1][at.index], 0.0});
+      const auto& points = body_.blocks[at.block].points;
+      data.insert(data.end(), {component(points, at.index, 0), component(points, at.index, 1), 0.0});
     }
     fields_.push_back({name, 3, std::move(data)});
   }
@@ -165,8 +167,8 @@ std::vector<io::Field> frame_fields(const Body<2>& body) {
   Collector collect(body);
   collect.integer("id", [&](int b, int i) { return body.blocks[b].points.id[i]; });
   collect.integer("region", [](int b, int) { return b; });
-  collect.vector("displacement", &Points<2>::u);
-  collect.vector("velocity", &Points<2>::v);
+  collect.vector("displacement", [](const Points<2>& p, int i, int j) { return p.u(j, i); });
+  collect.vector("velocity", [](const Points<2>& p, int i, int j) { return p.v[j][i]; });
   collect.tensor("stress", [](const Block<2>& block, int i, int c) { return -block.points.sigma[c][i]; });
   collect.scalar("p", mean_stress);
   collect.scalar("q", deviatoric_stress_of);

@@ -207,7 +207,7 @@ double max_displacement(const Body<2>& body) {
   double largest = 0;
   for (const auto& block : body.blocks) {
     for (int i = 0; i < block.size(); ++i) {
-      largest = std::max(largest, std::hypot(block.points.u[0][i], block.points.u[1][i]));
+      largest = std::max(largest, std::hypot(block.points.u(0, i), block.points.u(1, i)));
     }
   }
   return largest;

@@ -49,7 +49,7 @@ void set_to_zero(Body<2>& body, const input::StageInput& stage, Ledger& ledger) 
   for (auto& block : body.blocks) {
     auto& points = block.points;
     if (stage.zero_displacement) {
-      for (auto& u : points.u) std::fill(u.begin(), u.end(), 0.0);
+      points.x_start = points.x;
       std::fill(points.eps_q.begin(), points.eps_q.end(), 0.0);
     }
     if (stage.zero_velocity) {

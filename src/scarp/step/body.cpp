@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "scarp/base/error.hpp"
+#include "scarp/exec/parallel.hpp"
+#include "scarp/transfer/transfer.hpp"
 
 namespace scarp {
 
@@ -13,9 +15,7 @@ Body<Dim>::Body(std::unique_ptr<const Mesh<Dim>> background, const Vec<Dim>& gra
     : mesh(std::move(background)),
       locator(*mesh),
       conditions(mesh->node_count()),
-      gravity(gravitational_acceleration),
-      incidence(exec::incidence(*mesh)),
-      node(static_cast<std::size_t>(mesh->node_count())) {}
+      gravity(gravitational_acceleration) {}
 
 template <int Dim>
 int Body<Dim>::point_count() const {
@@ -26,14 +26,19 @@ int Body<Dim>::point_count() const {
 
 template <int Dim>
 void locate_points(Body<Dim>& body) {
+  double lightest = std::numeric_limits<double>::infinity();
   for (auto& block : body.blocks) {
     auto& points = block.points;
+    if (!body.mesh->grid) {
+      for (auto& column : points.xi) column.resize(block.size());
+    }
+    points.x_start = points.x;
     exec::for_each(block.size(), [&](int i) {
       Vec<Dim> x;
       for (int j = 0; j < Dim; ++j) x[j] = points.x[j][i];
       const auto found = body.locator.find_anywhere(x);
       points.element[i] = found.element;
-      for (int j = 0; j < Dim; ++j) points.xi[j][i] = found.xi[j];
+      for (int j = 0; j < Dim && !body.mesh->grid; ++j) points.xi[j][i] = found.xi[j];
     });
     for (int i = 0; i < block.size(); ++i) {
       if (points.element[i] >= 0) continue;
@@ -41,10 +46,7 @@ void locate_points(Body<Dim>& body) {
                        fmt::format("a point at ({:.6g}, {:.6g})", points.x[0][i], points.x[1][i]),
                        "extend the mesh over the region, or move the region into the mesh");
     }
-  }
-  double lightest = std::numeric_limits<double>::infinity();
-  for (const auto& block : body.blocks) {
-    for (const double m : block.points.mass) lightest = std::min(lightest, m);
+    for (const double m : points.mass) lightest = std::min(lightest, m);
   }
   body.least_mass = 1e-12 * lightest;
   reorder(body);
@@ -52,17 +54,53 @@ void locate_points(Body<Dim>& body) {
   body.out_of_place = 0;
 }
 
+namespace {
+
+/// What belongs to the set of active elements.
+template <int Dim>
+void rebuild(Body<Dim>& body) {
+  auto& buffers = body.buffers;
+  const auto& active = body.active;
+  body.assembly.rebuild(*body.mesh, active);
+  const auto slots = static_cast<std::size_t>(active.size()), places = body.assembly.places();
+  buffers.inside.resize(slots);
+  for (int slot = 0; slot < active.size(); ++slot) {
+    const auto around = body.mesh->elements_around(active.element[slot]);
+    buffers.inside[slot] = std::all_of(around.begin(), around.end(), [&](int e) { return active.slot[e] >= 0; });
+  }
+  buffers.weight.assign(slots, 1.0);
+  buffers.shift.resize(places);
+  buffers.sums.resize(places * transfer::node_sums<Dim>);
+  buffers.momentum.resize(places * Dim);
+  buffers.node.resize(body.mesh->nodes.size());
+}
+
+}  // namespace
+
 template <int Dim>
 void reorder(Body<Dim>& body) {
-  sort_by_element(body.blocks, body.mesh->element_count(), body.active);
-  body.nodes = exec::active_nodes(*body.mesh, body.active);
-  body.quadrature.assign(static_cast<std::size_t>(body.active.size()), {});
-  body.sums.resize(static_cast<std::size_t>(body.active.size()));
-  body.momentum.resize(static_cast<std::size_t>(body.active.size()));
+  if (sort_by_element(body.blocks, body.mesh->element_count(), body.active)) rebuild(body);
+  prepare_threads(body);
+}
+
+template <int Dim>
+void prepare_threads(Body<Dim>& body) {
+  int most = 0;
+  for (const auto& block : body.blocks) {
+    for (int first = 0; first < body.active.size(); first += element_chunk) {
+      const int last = std::min(body.active.size(), first + element_chunk);
+      most = std::max(most, block.begin[last] - block.begin[first]);
+    }
+  }
+  auto& strains = body.buffers.strains;
+  const auto threads = static_cast<std::size_t>(exec::thread_count());
+  if (strains.size() < threads) strains.resize(threads);
+  for (auto& of_thread : strains) of_thread.reserve(most);
 }
 
 template struct Body<2>;
 template void locate_points<2>(Body<2>&);
 template void reorder<2>(Body<2>&);
+template void prepare_threads<2>(Body<2>&);
 
 }  // namespace scarp

@@ -10,7 +10,8 @@
 #include "scarp/mesh/locate.hpp"
 #include "scarp/mesh/mesh.hpp"
 #include "scarp/points/points.hpp"
-#include "scarp/transfer/transfer.hpp"
+#include "scarp/step/books.hpp"
+#include "scarp/transfer/strains.hpp"
 
 namespace scarp {
 
@@ -20,9 +21,23 @@ struct Node {
   double m = 0;           ///< eq. 1
   Vec<Dim> v{};           ///< v^t; after step 5, v^{t+dt} (eq. 8)
   Vec<Dim> a{};           ///< eq. 5
+  Vec<Dim> v_next{};      ///< v^t + a dt with its conditions: what the PIC share of points takes
   std::uint8_t held = 0;  ///< bit j set where the conditions hold component j
   Vec<Dim> F_damping{};   ///< local damping
   Vec<Dim> F_friction{};  ///< of a wall
+};
+
+/// Buffers of a step. Rows of elements: the part of local node i of the active element in slot s is at s · row + i.
+template <int Dim>
+struct Buffers {
+  std::vector<std::uint8_t> inside;   ///< of each slot: are all elements around it active, too?
+  std::vector<double> weight;         ///< of each slot: w of its quadrature
+  std::vector<Vec<Dim>> shift;        ///< rows: s_i of its quadrature
+  std::vector<double> sums;           ///< rows: transfer::node_sums numbers for each local node
+  std::vector<double> momentum;       ///< rows: Dim numbers for each local node
+  std::vector<Node<Dim>> node;        ///< of every node of the mesh; valid for active ones
+  std::vector<Strains<Dim>> strains;  ///< of each thread
+  std::vector<StepBooks<Dim>> books;  ///< of each chunk
 };
 
 /// Soil on its background mesh. The mesh is held by pointer, so that it stays where the locator saw it.
@@ -37,26 +52,28 @@ struct Body {
   std::vector<Block<Dim>> blocks;
 
   ActiveElements active;
-  std::vector<int> nodes;  ///< of the active elements, ascending
-  double least_mass = 0;   ///< a node with less only has points on the far edges of its elements, and is left out
-  int out_of_place = 0;    ///< points that changed element since their arrays were last put in order
-
-  std::vector<transfer::Quadrature> quadrature;  ///< of each active element, of the step under way
-  exec::Incidence incidence;
-  exec::ElementRows<transfer::NodeSums<Dim>> sums;
-  exec::ElementRows<Vec<Dim>> momentum;
-  std::vector<Node<Dim>> node;  ///< of every node of the mesh; valid for active ones
+  exec::Assembly assembly;
+  double least_mass = 0;  ///< a node with less only has points on the far edges of its elements, and is left out
+  std::int64_t out_of_place = 0;  ///< points that changed element since their arrays were last put in order
+  Buffers<Dim> buffers;
 
   int point_count() const;
 };
 
-/// Finds the element of every point anew and prepares the first step. Throws InputError where a point is outside the
-/// mesh.
+/// Sweeps over elements go in chunks of this many, whose strain increments stay in the innermost cache.
+inline constexpr int element_chunk = 64;
+
+/// Finds the element of every point anew and prepares the first step; displacements count from here. Throws InputError
+/// where a point is outside the mesh.
 template <int Dim>
 void locate_points(Body<Dim>& body);
 
 /// Orders points and buffers by element after points have moved or gone.
 template <int Dim>
 void reorder(Body<Dim>& body);
+
+/// Room for the strain increments of a chunk, for each thread.
+template <int Dim>
+void prepare_threads(Body<Dim>& body);
 
 }  // namespace scarp

@@ -1,10 +1,6 @@
 // One time step of the dynamic material point method: section 2 of the report, in its order and its symbols.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
-#include "scarp/exec/stress_update.hpp"
 #include "scarp/step/body.hpp"
 
 namespace scarp {
@@ -21,20 +17,7 @@ struct StepSettings {
   Quadrature quadrature = Quadrature::corrected;
   IntegrationSettings integration;
   bool remove_leaving = false;  ///< a point that leaves the mesh is taken out, instead of an error
-};
-
-/// What a step did and where it leaves the body. Sums are taken in a fixed order.
-template <int Dim>
-struct StepBooks {
-  double unbalanced_force = 0, weight = 0;  ///< Σ |F_grav − F_int| over free components and Σ |F_grav|, at nodes
-  double work_gravity = 0, work_stress = 0;
-  double dissipation_damping = 0, dissipation_friction = 0, dissipation_pic = 0;
-  double kinetic_energy = 0, mass = 0, max_velocity = 0;  ///< of the points at the end
-  Vec<Dim> momentum{};
-  double removed_energy = 0, removed_mass = 0;  ///< kinetic energy and mass of points that left the mesh
-  std::int64_t removed = 0;
-  exec::StressBooks stress;
-  SearchCounts search;
+  bool profile = false;         ///< book the time of each Phase
 };
 
 /// Advances the body by dt. Throws RunError where a point leaves the mesh (unless it is to be removed).

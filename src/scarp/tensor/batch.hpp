@@ -1,4 +1,4 @@
-// A SIMD batch of doubles: the scalar that laws run on in the material point method.
+// A SIMD batch of doubles: the scalar that laws and mappings run on in the material point method.
 #pragma once
 
 #include <cstddef>
@@ -14,5 +14,71 @@ using xsimd::all;
 using xsimd::any;
 
 inline constexpr std::size_t batch_lanes = Batch::size;
+
+namespace detail {
+template <int Lanes>
+struct SizedBatch {
+  using type = xsimd::make_sized_batch_t<double, Lanes>;
+};
+template <int Lanes>
+requires(Lanes >= static_cast<int>(batch_lanes)) struct SizedBatch<Lanes> {
+  using type = Batch;
+};
+}  // namespace detail
+
+/// A batch for the points of an element of 2^Dim nodes, which hold that many points as a rule: as many lanes as that,
+/// or as the processor has.
+template <int Dim>
+using PointBatch = typename detail::SizedBatch<(1 << Dim)>::type;
+
+template <class T>
+inline constexpr int lanes_of = static_cast<int>(T::size);
+
+/// a b + c
+inline double fma(double a, double b, double c) {
+  return a * b + c;
+}
+using xsimd::fma;
+
+/// The first `count` of a batch's doubles from memory, zero in the others; nothing behind them is touched.
+template <class T>
+inline T load_first(const double* from, int count) {
+  constexpr int W = lanes_of<T>;
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+  const auto mask = static_cast<__mmask8>((1u << count) - 1u);
+  if constexpr (W == 8) return T(_mm512_maskz_loadu_pd(mask, from));
+  if constexpr (W == 4) return T(_mm256_maskz_loadu_pd(mask, from));
+#endif
+  double lanes[W] = {};
+  for (int l = 0; l < count; ++l) lanes[l] = from[l];
+  return T::load_unaligned(lanes);
+}
+
+/// The first `count` of a batch's doubles to memory.
+template <class T>
+inline void store_first(const T& value, double* to, int count) {
+  double lanes[lanes_of<T>];
+  value.store_unaligned(lanes);
+  for (int l = 0; l < count; ++l) to[l] = lanes[l];
+}
+
+/// Bit l is set where lane l of the mask is.
+template <class M>
+inline unsigned bits_of(const M& mask) {
+#if defined(__AVX512F__)
+  if constexpr (M::size == 8) return mask.data;
+#endif
+#if defined(__AVX__)
+  if constexpr (M::size == 4) return static_cast<unsigned>(_mm256_movemask_pd(mask));
+#endif
+  unsigned bits = 0;
+  for (std::size_t l = 0; l < M::size; ++l) bits |= mask.get(l) ? 1u << l : 0u;
+  return bits;
+}
+
+/// The bits of the first `count` lanes.
+inline constexpr unsigned first_bits(int count) {
+  return (1u << count) - 1u;
+}
 
 }  // namespace scarp

@@ -18,7 +18,7 @@ struct Task {
 
 /// The states and increments of as many tasks as a batch has lanes.
 template <class Model, int N>
-class Lanes {
+class TaskLanes {
  public:
   using Point = typename Model::template State<double, N>;
   using Points = typename Model::template State<Batch, N>;
@@ -26,7 +26,7 @@ class Lanes {
   Points state;
   Increment<Batch, N> whole;
 
-  explicit Lanes(const Task<Model, N>& task) {
+  explicit TaskLanes(const Task<Model, N>& task) {
     for_each_component([](Batch& x, const double& y) { x = Batch(y); }, state, task.state);
     for (int c = 0; c < N; ++c) whole.deps[c] = Batch(task.whole.deps[c]);
     whole.dt = Batch(task.whole.dt);
@@ -68,11 +68,11 @@ void integrate_lanes(const Model& model, int count, GetTask&& task, Done&& done,
                      double start) {
   static_assert(!Pair::doubts, "lanes do not confirm doubted substeps");
   if (count == 0) return;
-  constexpr double order = error_order<Pair, Model, typename Lanes<Model, N>::Points, Increment<Batch, N>>();
+  constexpr double order = error_order<Pair, Model, typename TaskLanes<Model, N>::Points, Increment<Batch, N>>();
   std::array<int, batch_lanes> who;
   std::array<StepControl, batch_lanes> control;
   std::array<double, batch_lanes> share;
-  Lanes<Model, N> lanes(task(0));
+  TaskLanes<Model, N> lanes(task(0));
   int next = 0, busy = 0;
   auto take_next = [&](std::size_t l) {
     who[l] = -1;  // a lane without a task goes through the motions of its last one

@@ -1,0 +1,326 @@
+// Bases: the functions N_i that carry fields from the nodes to the points of an element and back. A basis B has
+//   B::dim, B::nodes         the dimension and the number of local nodes that a point of an element touches
+//   B::stores_local          whether points keep their local coordinates (where finding them is dear)
+//   B::Cell(mesh, e)         what it knows of element e, made once per element and sweep, with
+//     local(x)               local coordinates of x (where the basis does not store them)
+//     inside(local, tol)     is that in the element, or beyond it by no more than tol parts of its height?
+//     shape(local, N)        N_i
+//     gradients(local, N, B) N_i and B_i = dN_i/dx
+//     integrals(V, g)        the element's volume V and g_i = ∫ B_i dV over it
+// all on T: double, or a SIMD batch with a point in each lane.
+#pragma once
+
+#include <array>
+#include <concepts>
+
+#include "scarp/mesh/mesh.hpp"
+#include "scarp/mesh/shapes.hpp"
+#include "scarp/tensor/scalar.hpp"
+
+namespace scarp {
+
+template <class B>
+concept Basis = requires {
+  { B::dim } -> std::convertible_to<int>;
+  { B::nodes } -> std::convertible_to<int>;
+  { B::stores_local } -> std::convertible_to<bool>;
+  typename B::Cell;
+};
+
+namespace detail {
+
+/// Is local node i of a quadrilateral or hexahedron on the far side along axis d? (0,0), (1,0), (1,1), (0,1), and again
+/// above.
+constexpr bool far_side(int i, int d) {
+  return d == 0 ? (i & 3) == 1 || (i & 3) == 2 : d == 1 ? (i & 2) != 0 : i >= 4;
+}
+
+/// Products of 1 − s and s on the unit box.
+template <int Dim, class T>
+inline void multilinear(const std::array<T, Dim>& s, std::array<T, (1 << Dim)>& N) {
+  std::array<T, Dim> r;
+  for (int d = 0; d < Dim; ++d) r[d] = T(1.0) - s[d];
+  for (int i = 0; i < (1 << Dim); ++i) {
+    T product = far_side(i, 0) ? s[0] : r[0];
+    for (int d = 1; d < Dim; ++d) product = product * (far_side(i, d) ? s[d] : r[d]);
+    N[i] = product;
+  }
+}
+
+/// dN_i/ds_d times scale[d].
+template <int Dim, class T>
+inline void multilinear_gradients(const std::array<T, Dim>& s, const Vec<Dim>& scale,
+                                  std::array<std::array<T, Dim>, (1 << Dim)>& dN) {
+  for (int d = 0; d < Dim; ++d) {
+    std::array<T, Dim> far, near;
+    for (int k = 0; k < Dim; ++k) {
+      far[k] = s[k];
+      near[k] = T(1.0) - s[k];
+    }
+    far[d] = T(scale[d]);
+    near[d] = T(-scale[d]);
+    for (int i = 0; i < (1 << Dim); ++i) {
+      T product = far_side(i, 0) ? far[0] : near[0];
+      for (int k = 1; k < Dim; ++k) product = product * (far_side(i, k) ? far[k] : near[k]);
+      dN[i][d] = product;
+    }
+  }
+}
+
+/// Inverse of the matrix J[j][k] = dx_j/dξ_k; returns det J.
+template <class T>
+inline T inverse(const std::array<std::array<T, 2>, 2>& J, std::array<std::array<T, 2>, 2>& I) {
+  const T det = J[0][0] * J[1][1] - J[0][1] * J[1][0], r = T(1.0) / det;
+  I = {{{J[1][1] * r, -(J[0][1] * r)}, {-(J[1][0] * r), J[0][0] * r}}};
+  return det;
+}
+template <class T>
+inline T inverse(const std::array<std::array<T, 3>, 3>& J, std::array<std::array<T, 3>, 3>& I) {
+  const auto minor = [&](int a, int b, int c, int d) { return J[a][c] * J[b][d] - J[a][d] * J[b][c]; };
+  const T x = minor(1, 2, 1, 2), y = minor(1, 2, 2, 0), z = minor(1, 2, 0, 1);
+  const T det = J[0][0] * x + J[0][1] * y + J[0][2] * z, r = T(1.0) / det;
+  I = {{{x * r, minor(2, 0, 1, 2) * r, minor(0, 1, 1, 2) * r},
+        {y * r, minor(2, 0, 2, 0) * r, minor(0, 1, 2, 0) * r},
+        {z * r, minor(2, 0, 0, 1) * r, minor(0, 1, 0, 1) * r}}};
+  return det;
+}
+
+}  // namespace detail
+
+/// Multilinear functions on a structured grid. Local coordinates run from 0 to 1; the Jacobian is diagonal and the same
+/// everywhere, so that they follow straight from x.
+template <int Dim>
+struct GridLinear {
+  static constexpr int dim = Dim, nodes = 1 << Dim;
+  static constexpr bool stores_local = false;
+
+  class Cell {
+   public:
+    Cell(const Mesh<Dim>& mesh, int e)
+        : low_(mesh.nodes[mesh.connectivity[static_cast<std::size_t>(e) * nodes]]), spacing_(mesh.grid->spacing) {
+      for (int d = 0; d < Dim; ++d) inverse_[d] = 1 / spacing_[d];
+    }
+
+    template <class T>
+    std::array<T, Dim> local(const std::array<T, Dim>& x) const {
+      std::array<T, Dim> s;
+      for (int d = 0; d < Dim; ++d) s[d] = (x[d] - T(low_[d])) * T(inverse_[d]);
+      return s;
+    }
+
+    template <class T>
+    Mask<T> inside(const std::array<T, Dim>& s, double tolerance) const {
+      Mask<T> yes = (s[0] >= T(-tolerance)) && (s[0] <= T(1 + tolerance));
+      for (int d = 1; d < Dim; ++d) yes = yes && (s[d] >= T(-tolerance)) && (s[d] <= T(1 + tolerance));
+      return yes;
+    }
+
+    template <class T>
+    void shape(const std::array<T, Dim>& s, std::array<T, nodes>& N) const {
+      detail::multilinear<Dim>(s, N);
+    }
+
+    template <class T>
+    void gradients(const std::array<T, Dim>& s, std::array<T, nodes>& N,
+                   std::array<std::array<T, Dim>, nodes>& B) const {
+      detail::multilinear<Dim>(s, N);
+      detail::multilinear_gradients<Dim>(s, inverse_, B);
+    }
+
+    void integrals(double& V, std::array<Vec<Dim>, nodes>& g) const {
+      V = 1;
+      for (int d = 0; d < Dim; ++d) V *= spacing_[d];
+      for (int i = 0; i < nodes; ++i) {
+        for (int d = 0; d < Dim; ++d) {
+          g[i][d] = (detail::far_side(i, d) ? V : -V) * inverse_[d] * (2.0 / nodes);
+        }
+      }
+    }
+
+   private:
+    Vec<Dim> low_, spacing_, inverse_;
+  };
+};
+
+/// The linear functions of an element type of a mesh.
+template <class Shape>
+struct Linear;
+
+namespace detail {
+
+/// Triangles and tetrahedra: B_i are constant, and local coordinates linear in x.
+template <int Dim>
+struct Simplex {
+  static constexpr int dim = Dim, nodes = Dim + 1;
+  static constexpr bool stores_local = false;
+
+  class Cell {
+   public:
+    Cell(const Mesh<Dim>& mesh, int e) {
+      const auto n = mesh.element_nodes(e);
+      low_ = mesh.nodes[n[0]];
+      std::array<Vec<Dim>, Dim> J;
+      for (int j = 0; j < Dim; ++j) {
+        for (int k = 0; k < Dim; ++k) J[j][k] = mesh.nodes[n[k + 1]][j] - low_[j];
+      }
+      det_ = inverse(J, inverse_);
+      for (int j = 0; j < Dim; ++j) {
+        B_[0][j] = 0;
+        for (int k = 0; k < Dim; ++k) {
+          B_[k + 1][j] = inverse_[k][j];
+          B_[0][j] -= inverse_[k][j];
+        }
+      }
+    }
+
+    template <class T>
+    std::array<T, Dim> local(const std::array<T, Dim>& x) const {
+      std::array<T, Dim> xi;
+      for (int k = 0; k < Dim; ++k) {
+        xi[k] = T(inverse_[k][0]) * (x[0] - T(low_[0]));
+        for (int j = 1; j < Dim; ++j) xi[k] = xi[k] + T(inverse_[k][j]) * (x[j] - T(low_[j]));
+      }
+      return xi;
+    }
+
+    template <class T>
+    Mask<T> inside(const std::array<T, Dim>& xi, double tolerance) const {
+      T sum = xi[0];
+      Mask<T> yes = xi[0] >= T(-tolerance);
+      for (int d = 1; d < Dim; ++d) {
+        sum = sum + xi[d];
+        yes = yes && (xi[d] >= T(-tolerance));
+      }
+      return yes && (sum <= T(1 + tolerance));
+    }
+
+    template <class T>
+    void shape(const std::array<T, Dim>& xi, std::array<T, nodes>& N) const {
+      N[0] = T(1.0) - xi[0];
+      for (int d = 1; d < Dim; ++d) N[0] = N[0] - xi[d];
+      for (int d = 0; d < Dim; ++d) N[d + 1] = xi[d];
+    }
+
+    template <class T>
+    void gradients(const std::array<T, Dim>& xi, std::array<T, nodes>& N,
+                   std::array<std::array<T, Dim>, nodes>& B) const {
+      shape(xi, N);
+      for (int i = 0; i < nodes; ++i) {
+        for (int j = 0; j < Dim; ++j) B[i][j] = T(B_[i][j]);
+      }
+    }
+
+    void integrals(double& V, std::array<Vec<Dim>, nodes>& g) const {
+      V = det_ / (Dim == 2 ? 2 : 6);
+      for (int i = 0; i < nodes; ++i) {
+        for (int j = 0; j < Dim; ++j) g[i][j] = V * B_[i][j];
+      }
+    }
+
+   private:
+    Vec<Dim> low_;
+    double det_;
+    std::array<Vec<Dim>, Dim> inverse_;
+    std::array<Vec<Dim>, nodes> B_;
+  };
+};
+
+/// Quadrilaterals and hexahedra of any shape. Points store their local coordinates, from −1 to 1.
+template <int Dim>
+struct Box {
+  static constexpr int dim = Dim, nodes = 1 << Dim;
+  static constexpr bool stores_local = true;
+
+  class Cell {
+   public:
+    Cell(const Mesh<Dim>& mesh, int e) {
+      const auto n = mesh.element_nodes(e);
+      for (int i = 0; i < nodes; ++i) x_[i] = mesh.nodes[n[i]];
+    }
+
+    template <class T>
+    void shape(const std::array<T, Dim>& xi, std::array<T, nodes>& N) const {
+      multilinear<Dim>(unit(xi), N);
+    }
+
+    template <class T>
+    void gradients(const std::array<T, Dim>& xi, std::array<T, nodes>& N,
+                   std::array<std::array<T, Dim>, nodes>& B) const {
+      const auto s = unit(xi);
+      multilinear<Dim>(s, N);
+      jacobian_and_gradients(s, B);
+    }
+
+    void integrals(double& V, std::array<Vec<Dim>, nodes>& g) const {
+      // Two Gauss points along each axis are exact: det J dN/dx is of second degree in each local coordinate.
+      V = 0;
+      g = {};
+      constexpr double gauss[2] = {0.21132486540518711775, 0.78867513459481288225}, part = 1.0 / nodes;
+      for (int q = 0; q < nodes; ++q) {
+        Vec<Dim> s;
+        for (int d = 0; d < Dim; ++d) s[d] = gauss[far_side(q, d)];
+        std::array<Vec<Dim>, nodes> B;
+        const double det = jacobian_and_gradients(s, B);
+        V += part * det;
+        for (int i = 0; i < nodes; ++i) {
+          for (int j = 0; j < Dim; ++j) g[i][j] += part * det * B[i][j];
+        }
+      }
+    }
+
+   private:
+    template <class T>
+    static std::array<T, Dim> unit(const std::array<T, Dim>& xi) {
+      std::array<T, Dim> s;
+      for (int d = 0; d < Dim; ++d) s[d] = T(0.5) * (T(1.0) + xi[d]);
+      return s;
+    }
+
+    template <class T>
+    T jacobian_and_gradients(const std::array<T, Dim>& s, std::array<std::array<T, Dim>, nodes>& B) const {
+      Vec<Dim> one;
+      one.fill(1.0);
+      std::array<std::array<T, Dim>, nodes> dN;
+      multilinear_gradients<Dim>(s, one, dN);
+      std::array<std::array<T, Dim>, Dim> J, I;
+      for (int j = 0; j < Dim; ++j) {
+        for (int k = 0; k < Dim; ++k) {
+          J[j][k] = T(x_[0][j]) * dN[0][k];
+          for (int i = 1; i < nodes; ++i) J[j][k] = J[j][k] + T(x_[i][j]) * dN[i][k];
+        }
+      }
+      const T det = inverse(J, I);
+      for (int i = 0; i < nodes; ++i) {
+        for (int j = 0; j < Dim; ++j) {
+          B[i][j] = dN[i][0] * I[0][j];
+          for (int k = 1; k < Dim; ++k) B[i][j] = B[i][j] + dN[i][k] * I[k][j];
+        }
+      }
+      return det;
+    }
+
+    std::array<Vec<Dim>, nodes> x_;
+  };
+};
+
+}  // namespace detail
+
+template <>
+struct Linear<T3> : detail::Simplex<2> {};
+template <>
+struct Linear<Q4> : detail::Box<2> {};
+
+/// f(basis, slot) for slots first ... last - 1 of a list of elements.
+template <int Dim, class F>
+inline void with_basis(const Mesh<Dim>& mesh, const int* elements, int first, int last, F&& f) {
+  if (mesh.grid) {
+    for (int slot = first; slot < last; ++slot) f(GridLinear<Dim>{}, slot, elements[slot]);
+    return;
+  }
+  for (int slot = first; slot < last; ++slot) {
+    const int e = elements[slot];
+    with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) { f(Linear<Shape>{}, slot, e); });
+  }
+}
+
+}  // namespace scarp

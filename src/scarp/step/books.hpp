@@ -1,0 +1,59 @@
+// What a step did and where it leaves the body. Chunks of elements and nodes keep books of their own, which are added
+// up in a fixed order.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+
+#include "scarp/base/vec.hpp"
+#include "scarp/exec/stress_update.hpp"
+#include "scarp/mesh/locate.hpp"
+
+namespace scarp {
+
+/// The parts of a step whose times are taken when asked for.
+enum class Phase { points_to_nodes, nodes, velocities, strain_and_move, stress, order };
+inline constexpr int phases = 6;
+inline constexpr std::array<const char*, phases> phase_names{
+    "points to nodes (1)",  "nodes (2, 3, 5)",    "velocities (4, 5)", "strain, motion, element (6, 8-11)",
+    "stress and state (7)", "order of the points"};
+
+template <int Dim>
+struct StepBooks {
+  double unbalanced_force = 0, weight = 0;  ///< Σ |F_grav − F_int| over free components and Σ |F_grav|, at nodes
+  double work_gravity = 0, work_stress = 0;
+  double dissipation_damping = 0, dissipation_friction = 0, dissipation_pic = 0;
+  double kinetic_energy = 0, mass = 0, max_velocity = 0;  ///< of the points at the end
+  Vec<Dim> momentum{};
+  double removed_energy = 0, removed_mass = 0;  ///< kinetic energy and mass of points that left the mesh
+  std::int64_t removed = 0;
+  std::int64_t changed_element = 0, left_mesh = 0;  ///< points that did
+  exec::StressBooks stress;
+  SearchCounts search;
+  std::array<double, phases> seconds{};  ///< of each Phase, threads added up; only where asked for
+
+  StepBooks& operator+=(const StepBooks& other);
+};
+
+/// Books the time that it lives to a phase, if `on`.
+template <int Dim>
+class Stopwatch {
+  using Clock = std::chrono::steady_clock;
+
+ public:
+  Stopwatch(bool on, StepBooks<Dim>& books, Phase phase)
+      : seconds_(on ? &books.seconds[static_cast<int>(phase)] : nullptr),
+        start_(on ? Clock::now() : Clock::time_point{}) {}
+  ~Stopwatch() {
+    if (seconds_) *seconds_ += std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double* seconds_;
+  Clock::time_point start_;
+};
+
+}  // namespace scarp

@@ -1,0 +1,98 @@
+// Steps 2, 3 and 5 at the nodes.
+#include <algorithm>
+#include <cmath>
+
+#include "scarp/exec/parallel.hpp"
+#include "scarp/step/phases.hpp"
+#include "scarp/transfer/transfer.hpp"
+
+namespace scarp::step {
+namespace {
+
+constexpr int node_chunk = 256;
+
+/// f(k, n, part) for active node k, number n of the mesh.
+template <int Dim, class F>
+void for_each_node(Body<Dim>& body, StepBooks<Dim>& books, F&& f) {
+  exec::sum_over_chunks(body.assembly.size(), node_chunk, body.buffers.books, books,
+                        [&](int first, int last, StepBooks<Dim>& part) {
+                          for (int k = first; k < last; ++k) f(k, body.assembly.node(k), part);
+                        });
+}
+
+/// Step 2: m_n, p_n and F_n^int, from the elements around a node.
+template <int Dim>
+std::array<double, transfer::node_sums<Dim>> assembled(const Body<Dim>& body, int k) {
+  constexpr int Q = transfer::node_sums<Dim>;
+  std::array<double, Q> sum{};
+  body.assembly.gather(k, [&](int place) {
+    const double* part = body.buffers.sums.data() + static_cast<std::size_t>(place) * Q;
+    for (int q = 0; q < Q; ++q) sum[q] += part[q];
+  });
+  return sum;
+}
+
+/// Step 3: a_n = (F_grav − F_int) / m_n (eq. 5) with local damping against the motion, and the conditions.
+template <int Dim>
+Node<Dim> accelerated(const Body<Dim>& body, int n, const double* sum, double dt, double damping) {
+  Node<Dim> node;
+  node.m = sum[0];
+  const double *p = sum + 1, *F_int = p + Dim;
+  for (int j = 0; j < Dim; ++j) {
+    const double F = node.m * body.gravity[j] - F_int[j];
+    node.v[j] = p[j] / node.m;
+    node.F_damping[j] = node.v[j] == 0 ? 0 : -std::copysign(damping * std::abs(F), node.v[j]);
+    node.a[j] = (F + node.F_damping[j]) / node.m;
+  }
+  const auto reaction = constrain_acceleration<Dim>(body.conditions, n, node.m, node.v, dt, node.a);
+  node.F_friction = reaction.friction;
+  node.held = reaction.held;
+  for (int j = 0; j < Dim; ++j) {
+    node.v_next[j] = node.v[j] + node.a[j] * dt;
+    if (node.held & (1u << j)) node.F_damping[j] = 0;
+  }
+  constrain_velocity<Dim>(body.conditions, n, node.held, node.v_next);
+  return node;
+}
+
+}  // namespace
+
+template <int Dim>
+void accelerate_nodes(Body<Dim>& body, double dt, double damping, StepBooks<Dim>& books) {
+  for_each_node(body, books, [&](int k, int n, StepBooks<Dim>& part) {
+    const auto sum = assembled(body, k);
+    Node<Dim>& node = body.buffers.node[n];
+    node = sum[0] < body.least_mass ? Node<Dim>{} : accelerated(body, n, sum.data(), dt, damping);
+    for (int j = 0; j < Dim; ++j) {
+      if (!(node.held & (1u << j))) part.unbalanced_force += std::abs(node.m * node.a[j] - node.F_damping[j]);
+      part.weight += std::abs(node.m * body.gravity[j]);
+    }
+  });
+}
+
+/// Forces at nodes work on ½ (v^t + v^{t+dt}): with that the change of the points' kinetic energy is theirs to the last
+/// bit. Gravity works on the points' displacements: Σ m_p du_p = Σ m_n v_n dt.
+template <int Dim>
+void velocities_of_nodes(Body<Dim>& body, double dt, StepBooks<Dim>& books) {
+  for_each_node(body, books, [&](int k, int n, StepBooks<Dim>& part) {
+    Node<Dim>& node = body.buffers.node[n];
+    if (node.m < body.least_mass) return;
+    Vec<Dim> p{};
+    body.assembly.gather(k, [&](int place) {
+      for (int j = 0; j < Dim; ++j) p[j] += body.buffers.momentum[static_cast<std::size_t>(place) * Dim + j];
+    });
+    for (int j = 0; j < Dim; ++j) {
+      const double v = p[j] / node.m, path = 0.5 * (node.v[j] + v) * dt;
+      part.dissipation_damping -= node.F_damping[j] * path;
+      part.dissipation_friction -= node.F_friction[j] * path;
+      node.v[j] = v;
+    }
+    constrain_velocity<Dim>(body.conditions, n, node.held, node.v);
+    for (int j = 0; j < Dim; ++j) part.work_gravity += node.m * body.gravity[j] * node.v[j] * dt;
+  });
+}
+
+template void accelerate_nodes<2>(Body<2>&, double, double, StepBooks<2>&);
+template void velocities_of_nodes<2>(Body<2>&, double, StepBooks<2>&);
+
+}  // namespace scarp::step

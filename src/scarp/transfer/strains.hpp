@@ -1,0 +1,61 @@
+// What step 6 hands to step 7, for the points of a chunk of elements in their order: small enough to stay in the cache.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "scarp/points/points.hpp"
+
+namespace scarp {
+
+template <int Dim>
+struct Strains {
+  using Column = std::vector<double>;
+
+  std::array<Column, sym_size<Dim>> deps;   ///< strain increment (eq. 10), Mandel components, tension positive
+  std::array<Column, spin_size<Dim>> spin;  ///< spin increment (eq. 11): W_xy (, W_yz, W_zx)
+  Column volume;                            ///< w Ω_p in the middle of the step: what the work of stress is taken over
+  Column per_mass;  ///< max(1, w) Ω_p / m_p: where a point stands for more, its stiffness does too
+  Column speed2;    ///< |v_p|²
+  Column size;      ///< least height of the element
+
+  /// Room for so many points, and for a batch that starts at the last of them.
+  void reserve(int points) {
+    constexpr std::size_t widest = 8;
+    const std::size_t room = static_cast<std::size_t>(points) + widest;
+    if (volume.size() >= room) return;
+    for (auto& column : deps) column.resize(room);
+    for (auto& column : spin) column.resize(room);
+    for (auto* column : {&volume, &per_mass, &speed2, &size}) column->resize(room);
+  }
+};
+
+namespace transfer {
+
+/// det(I + L dt)
+template <class T>
+inline T determinant_of_stretch(const std::array<std::array<T, 2>, 2>& L) {
+  return (T(1.0) + L[0][0]) * (T(1.0) + L[1][1]) - L[0][1] * L[1][0];
+}
+template <class T>
+inline T determinant_of_stretch(const std::array<std::array<T, 3>, 3>& L) {
+  const T x = T(1.0) + L[0][0], y = T(1.0) + L[1][1], z = T(1.0) + L[2][2];
+  return x * (y * z - L[1][2] * L[2][1]) - L[0][1] * (L[1][0] * z - L[1][2] * L[2][0]) +
+         L[0][2] * (L[1][0] * L[2][1] - y * L[2][0]);
+}
+
+/// Strain and spin increments (eqs 10, 11) of L dt to the places `at` on. Whole batches are written: what comes behind
+/// the last point of an element is overwritten by the next.
+template <int Dim, class T>
+inline void store_strains(const std::array<std::array<T, Dim>, Dim>& L, Strains<Dim>& strains, int at) {
+  for (int j = 0; j < Dim; ++j) L[j][j].store_unaligned(strains.deps[j].data() + at);
+  if constexpr (Dim == 2) T(0.0).store_unaligned(strains.deps[2].data() + at);
+  for (int l = 0; l < spin_size<Dim>; ++l) {  // xy, yz, zx
+    const int j = l, k = (l + 1) % Dim;
+    (T(0.5 * sqrt2) * (L[j][k] + L[k][j])).store_unaligned(strains.deps[3 + l].data() + at);
+    (T(0.5) * (L[j][k] - L[k][j])).store_unaligned(strains.spin[l].data() + at);
+  }
+}
+
+}  // namespace transfer
+}  // namespace scarp
