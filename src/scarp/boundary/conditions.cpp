@@ -1,6 +1,7 @@
 #include "scarp/boundary/conditions.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 
@@ -28,10 +29,9 @@ void wall(Conditions<Dim>& conditions, const Mesh<Dim>& mesh, std::span<const in
   }
   for (const int n : nodes) {
     if (above[n] && below[n]) {
-      throw InputError(
-          "a wall with friction lies on the boundary of the mesh, with the mesh on one side",
-          fmt::format("the node at ({:g}, {:g}) with elements on both sides", mesh.nodes[n][0], mesh.nodes[n][1]),
-          "name nodes of one side of the mesh, or leave friction out");
+      throw InputError("a wall with friction lies on the boundary of the mesh, with the mesh on one side",
+                       fmt::format("the node at ({:g}) with elements on both sides", fmt::join(mesh.nodes[n], ", ")),
+                       "name nodes of one side of the mesh, or leave friction out");
     }
     conditions.normal[n] = static_cast<std::int8_t>(component);
     conditions.inward[n] = above[n] ? 1.0 : -1.0;
@@ -95,8 +95,12 @@ void constrain_velocity(const Conditions<Dim>& conditions, int n, std::uint8_t h
 }
 
 template void fix<2>(Conditions<2>&, std::span<const int>, int);
+template void fix<3>(Conditions<3>&, std::span<const int>, int);
 template void wall<2>(Conditions<2>&, const Mesh<2>&, std::span<const int>, int, double);
+template void wall<3>(Conditions<3>&, const Mesh<3>&, std::span<const int>, int, double);
 template Reaction<2> constrain_acceleration<2>(const Conditions<2>&, int, double, const Vec<2>&, double, Vec<2>&);
+template Reaction<3> constrain_acceleration<3>(const Conditions<3>&, int, double, const Vec<3>&, double, Vec<3>&);
 template void constrain_velocity<2>(const Conditions<2>&, int, std::uint8_t, Vec<2>&);
+template void constrain_velocity<3>(const Conditions<3>&, int, std::uint8_t, Vec<3>&);
 
 }  // namespace scarp

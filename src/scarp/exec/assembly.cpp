@@ -34,6 +34,13 @@ void Assembly::rebuild(const Mesh<Dim>& mesh, const ActiveElements& active) {
   places_ = static_cast<std::size_t>(active.size()) * row_;
 }
 
+void Assembly::reserve(std::size_t elements, std::size_t row) {
+  node_.reserve(elements * row);
+  begin_.reserve(elements * row + 2);
+  place_.reserve(elements * row);
+}
+
 template void Assembly::rebuild<2>(const Mesh<2>&, const ActiveElements&);
+template void Assembly::rebuild<3>(const Mesh<3>&, const ActiveElements&);
 
 }  // namespace scarp::exec

@@ -33,6 +33,9 @@ class Assembly {
   template <int Dim>
   void rebuild(const Mesh<Dim>& mesh, const ActiveElements& active);
 
+  /// Room for so many active elements of up to `row` nodes.
+  void reserve(std::size_t elements, std::size_t row);
+
  private:
   int row_ = 0;
   std::size_t places_ = 0;

@@ -270,7 +270,11 @@ double critical_time_step(const Block<Dim>& block, const std::vector<double>& el
 
 template void update_stresses<2>(Block<2>&, PointRange, const Strains<2>&, int, double, const IntegrationSettings&,
                                  StressBooks&);
+template void update_stresses<3>(Block<3>&, PointRange, const Strains<3>&, int, double, const IntegrationSettings&,
+                                 StressBooks&);
 template double critical_time_step<2>(const Block<2>&, const std::vector<double>&, const ActiveElements&,
+                                      const std::vector<double>&);
+template double critical_time_step<3>(const Block<3>&, const std::vector<double>&, const ActiveElements&,
                                       const std::vector<double>&);
 
 }  // namespace scarp::exec

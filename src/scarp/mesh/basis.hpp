@@ -309,6 +309,10 @@ template <>
 struct Linear<T3> : detail::Simplex<2> {};
 template <>
 struct Linear<Q4> : detail::Box<2> {};
+template <>
+struct Linear<T4> : detail::Simplex<3> {};
+template <>
+struct Linear<H8> : detail::Box<3> {};
 
 /// f(basis, slot) for slots first ... last - 1 of a list of elements.
 template <int Dim, class F>

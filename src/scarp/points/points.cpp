@@ -109,7 +109,10 @@ void remove_points(Block<Dim>& block, const std::vector<std::uint8_t>& gone) {
 }
 
 template bool sort_by_element<2>(std::vector<Block<2>>&, int, ActiveElements&);
+template bool sort_by_element<3>(std::vector<Block<3>>&, int, ActiveElements&);
 template void arrange_in_order<2>(std::vector<Block<2>>&);
+template void arrange_in_order<3>(std::vector<Block<3>>&);
 template void remove_points<2>(Block<2>&, const std::vector<std::uint8_t>&);
+template void remove_points<3>(Block<3>&, const std::vector<std::uint8_t>&);
 
 }  // namespace scarp

@@ -93,6 +93,15 @@ void resize(Block<Dim>& block, int size) {
   for_each_column(block, [size](auto& column) { column.resize(static_cast<std::size_t>(size)); });
 }
 
+/// Room for a block to be ordered by so many elements without allocating.
+template <int Dim>
+void reserve_order(Block<Dim>& block, std::size_t elements) {
+  const auto points = static_cast<std::size_t>(block.size());
+  block.order.reserve(points);
+  block.begin.reserve(elements + 2);
+  std::apply([points](auto&... column) { (column.reserve(points), ...); }, block.spare);
+}
+
 /// The elements that hold points, ascending, and the place (slot) of each element in that list.
 struct ActiveElements {
   std::vector<int> element;  ///< of each slot

@@ -22,5 +22,6 @@ StepBooks<Dim>& StepBooks<Dim>::operator+=(const StepBooks& other) {
 }
 
 template struct StepBooks<2>;
+template struct StepBooks<3>;
 
 }  // namespace scarp

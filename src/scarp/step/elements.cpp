@@ -171,7 +171,10 @@ void strain_stress_and_motion(Body<Dim>& body, double dt, const StepSettings& se
 }
 
 template void map_points_to_elements<2>(Body<2>&, Quadrature, StepBooks<2>&);
+template void map_points_to_elements<3>(Body<3>&, Quadrature, StepBooks<3>&);
 template void update_velocities<2>(Body<2>&, double, double, StepBooks<2>&);
+template void update_velocities<3>(Body<3>&, double, double, StepBooks<3>&);
 template void strain_stress_and_motion<2>(Body<2>&, double, const StepSettings&, StepBooks<2>&);
+template void strain_stress_and_motion<3>(Body<3>&, double, const StepSettings&, StepBooks<3>&);
 
 }  // namespace scarp::step

@@ -93,6 +93,8 @@ void velocities_of_nodes(Body<Dim>& body, double dt, StepBooks<Dim>& books) {
 }
 
 template void accelerate_nodes<2>(Body<2>&, double, double, StepBooks<2>&);
+template void accelerate_nodes<3>(Body<3>&, double, double, StepBooks<3>&);
 template void velocities_of_nodes<2>(Body<2>&, double, StepBooks<2>&);
+template void velocities_of_nodes<3>(Body<3>&, double, StepBooks<3>&);
 
 }  // namespace scarp::step

@@ -122,7 +122,10 @@ double critical_time_step(const Body<Dim>& body) {
 }
 
 template StepBooks<2> advance<2>(Body<2>&, double, const StepSettings&);
+template StepBooks<3> advance<3>(Body<3>&, double, const StepSettings&);
 template double critical_time_step<2>(const Body<2>&);
+template double critical_time_step<3>(const Body<3>&);
 template void book_motion<2>(const Body<2>&, StepBooks<2>&);
+template void book_motion<3>(const Body<3>&, StepBooks<3>&);
 
 }  // namespace scarp

@@ -19,11 +19,11 @@ struct Strains {
   Column speed2;    ///< |v_p|²
   Column size;      ///< least height of the element
 
-  /// Room for so many points, and for a batch that starts at the last of them.
+  /// Room for so many points, and for a batch that starts at the last of them; twice that where it has to grow.
   void reserve(int points) {
     constexpr std::size_t widest = 8;
-    const std::size_t room = static_cast<std::size_t>(points) + widest;
-    if (volume.size() >= room) return;
+    if (volume.size() >= static_cast<std::size_t>(points) + widest) return;
+    const std::size_t room = 2 * static_cast<std::size_t>(points) + widest;
     for (auto& column : deps) column.resize(room);
     for (auto& column : spin) column.resize(room);
     for (auto* column : {&volume, &per_mass, &speed2, &size}) column->resize(room);

@@ -1,0 +1,29 @@
+// operator new that counts. In a file of its own: compilers that see it beside its use warn of a delete that frees.
+#include "counting_new.hpp"
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+std::atomic<long> count{0};
+}
+
+namespace scarp::test {
+long allocations() {
+  return count;
+}
+}  // namespace scarp::test
+
+// Every other form of new ends here.
+void* operator new(std::size_t size) {
+  ++count;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}

@@ -1,0 +1,102 @@
+// Bodies for tests of the step: soil in part of the unit square or cube, thrown so that points change elements.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <random>
+#include <stdexcept>
+
+#include "../unit/mesh/meshes.hpp"
+#include "../unit/mesh/solids.hpp"
+#include "scarp/material/models.hpp"
+#include "scarp/step/step.hpp"
+
+namespace scarp::test {
+
+enum class Background { grid, quads, triangles, mixed };
+
+inline Mesh<2> plane_mesh(Background kind, int n) {
+  if (kind == Background::grid) return make_grid({0, 0}, {1, 1}, {n, n});
+  return irregular(n, 0.2,
+                   kind == Background::quads       ? Kind::quads
+                   : kind == Background::triangles ? Kind::triangles
+                                                   : Kind::mixed);
+}
+inline Mesh<3> solid_mesh(Background kind, int n) {
+  if (kind == Background::grid) return make_grid<3>({0, 0, 0}, {1, 1, 1}, {n, n, n});
+  return irregular(n, 0.1,
+                   kind == Background::quads       ? Solid::hexahedra
+                   : kind == Background::triangles ? Solid::tetrahedra
+                                                   : Solid::mixed);
+}
+
+inline AnyModel elastic() {
+  return LinearElastic({1000.0, 0.3});
+}
+inline AnyModel subloading() {
+  return *make_model("subloading", {{"kappa", .02},
+                                    {"lambda", .12},
+                                    {"nu", .3},
+                                    {"p_e", 5},
+                                    {"M", 1.0},
+                                    {"M_c", 1.3},
+                                    {"k", .78},
+                                    {"alpha", 1},
+                                    {"xi", .01},
+                                    {"c_R", 60},
+                                    {"c_beta", 5},
+                                    {"c_b", 20},
+                                    {"R_bf", 1},
+                                    {"c_a", 3},
+                                    {"p_atm", 101.325}})
+              .model;
+}
+
+/// Soil on a mesh of the unit square or cube: points in random places of a lattice of `along` cells on each axis over
+/// 0.2 to 0.8, under an isotropic pressure, moving and turning. Held at the bottom by friction, at the other sides by
+/// their normals.
+template <int Dim>
+Body<Dim> soil(Mesh<Dim> mesh, const AnyModel& model, int along, double speed) {
+  Vec<Dim> g{};
+  g[Dim - 1] = -9.81;
+  Body<Dim> body(std::make_unique<const Mesh<Dim>>(std::move(mesh)), g);
+  Block<Dim> block("soil", model);
+  const int count = static_cast<int>(std::lround(std::pow(along, Dim)));
+  resize(block, count);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> shake(-0.3, 0.3);
+  auto& points = block.points;
+  const double step = 0.6 / along;
+  for (int i = 0; i < count; ++i) {
+    int rest = i;
+    Vec<Dim> x;
+    for (int j = 0; j < Dim; ++j) {
+      x[j] = 0.2 + step * (rest % along + 0.5 + shake(random));
+      rest /= along;
+    }
+    points.volume[i] = points.initial_volume[i] = std::pow(step, Dim) * (1 + 0.1 * shake(random));
+    points.mass[i] = 1.8 * points.volume[i];
+    points.id[i] = i;
+    for (int j = 0; j < Dim; ++j) {
+      points.x[j][i] = x[j];
+      points.v[j][i] = speed * (0.5 + 0.5 * std::sin(2 * x[(j + 1) % Dim] + j));
+      points.sigma[j][i] = -2;
+    }
+    if constexpr (Dim == 2) points.sigma[2][i] = -2;
+    if (!block.state.empty()) {
+      constexpr int N = sym_size<Dim>;
+      block.state[3 * N][i] = 30;     // p_c
+      block.state[3 * N + 1][i] = 2;  // R_b
+    }
+  }
+  body.blocks.push_back(std::move(block));
+  locate_points(body);
+  const auto& sets = body.mesh->node_sets;
+  for (const char* side : {"left", "right"}) fix(body.conditions, sets.at(side), 0);
+  if constexpr (Dim == 3)
+    for (const char* side : {"front", "back"}) fix(body.conditions, sets.at(side), 1);
+  wall(body.conditions, *body.mesh, sets.at("bottom"), Dim - 1, 0.4);
+  return body;
+}
+
+}  // namespace scarp::test

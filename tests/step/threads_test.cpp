@@ -1,0 +1,84 @@
+// The same bits on any number of threads, after points have changed element, been put in order and been removed.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+
+#include "scarp/exec/parallel.hpp"
+#include "soils.hpp"
+
+namespace scarp::test {
+namespace {
+
+/// All numbers of the points, in their order, as bits.
+template <int Dim>
+std::vector<std::uint64_t> bits(Body<Dim>& body, const StepBooks<Dim>& books) {
+  std::vector<std::uint64_t> all;
+  for_each_column(body.blocks[0], [&](const auto& column) {
+    for (const auto value : column) {
+      if constexpr (sizeof(value) == 8) {
+        all.push_back(std::bit_cast<std::uint64_t>(value));
+      } else {
+        all.push_back(value);
+      }
+    }
+  });
+  for (const double value : {books.kinetic_energy, books.work_stress, books.work_gravity, books.dissipation_damping,
+                             books.dissipation_friction, books.stress.critical_dt}) {
+    all.push_back(std::bit_cast<std::uint64_t>(value));
+  }
+  return all;
+}
+
+template <int Dim>
+std::vector<std::uint64_t> run(int threads, Mesh<Dim> mesh, const AnyModel& model, int along, int steps, double speed) {
+  exec::set_threads(threads);
+  auto body = soil<Dim>(std::move(mesh), model, along, speed);
+  const double dt = 0.3 * critical_time_step(body);
+  const StepSettings settings{
+      .flip = 0.99, .damping = 0.05, .quadrature = Quadrature::corrected, .integration = {1e-4, 1e-5}};
+  StepBooks<Dim> books;
+  std::int64_t changed = 0;
+  for (int s = 0; s < steps; ++s) {
+    books = advance(body, dt, settings);
+    changed += books.changed_element;
+    if (s != steps / 2) continue;
+    // A cut: what stands to the right above.
+    std::vector<std::uint8_t> gone;
+    const auto& points = body.blocks[0].points;
+    for (int i = 0; i < points.size(); ++i) gone.push_back(points.x[0][i] > 0.6 && points.x[Dim - 1][i] > 0.5);
+    remove_points(body.blocks[0], gone);
+    reorder(body);
+  }
+  EXPECT_GT(10 * changed, body.point_count());  // so all were put in order at least once
+  exec::set_threads(1);
+  return bits(body, books);
+}
+
+template <class Make>
+void expect_same(Make&& make) {
+  const auto one = make(1);
+  for (const int threads : {2, 3, 8}) EXPECT_TRUE(one == make(threads)) << threads << " threads";
+}
+
+TEST(SameBitsOn1And2And3And8Threads, ElasticOnAGrid) {
+  expect_same([](int threads) { return run<2>(threads, plane_mesh(Background::grid, 40), elastic(), 60, 100, 1.0); });
+}
+TEST(SameBitsOn1And2And3And8Threads, SubloadingOnAGrid) {
+  expect_same(
+      [](int threads) { return run<2>(threads, plane_mesh(Background::grid, 40), subloading(), 60, 100, 1.0); });
+}
+TEST(SameBitsOn1And2And3And8Threads, SubloadingOnAMixedMesh) {
+  expect_same(
+      [](int threads) { return run<2>(threads, plane_mesh(Background::mixed, 40), subloading(), 60, 100, 1.0); });
+}
+TEST(SameBitsOn1And2And3And8Threads, SubloadingInSpace) {
+  expect_same(
+      [](int threads) { return run<3>(threads, solid_mesh(Background::grid, 12), subloading(), 14, 100, 1.0); });
+}
+TEST(SameBitsOn1And2And3And8Threads, ElasticOnAMixedMeshInSpace) {
+  expect_same([](int threads) { return run<3>(threads, solid_mesh(Background::mixed, 10), elastic(), 14, 60, 1.0); });
+}
+
+}  // namespace
+}  // namespace scarp::test

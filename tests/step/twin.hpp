@@ -1,0 +1,260 @@
+// The step again, slow and obvious: serial, one point at a time in the order of their numbers, plain doubles, every sum
+// over all points and every node of the mesh, straight from section 2 of the report and docs/theory.md. Shares with the
+// fast step the shapes on double, the laws, and what conditions do to one node; none of its data flow.
+#pragma once
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "scarp/step/step.hpp"
+
+namespace scarp::test {
+
+template <class Model, int Dim>
+class Twin {
+  static constexpr int N = sym_size<Dim>;
+  using State = typename Model::template State<double, N>;
+
+ public:
+  struct Point {
+    double m, Omega;
+    Vec<Dim> x, v;
+    State state;  ///< compression positive
+    int element;
+  };
+
+  /// The points of the first block of a body, by their numbers.
+  Twin(const Body<Dim>& body, const Model& model) : body_(body), model_(model) {
+    const auto& block = body.blocks[0];
+    points.resize(block.size());
+    for (int i = 0; i < block.size(); ++i) {
+      const auto& p = block.points;
+      Point& point = points[p.id[i]];
+      point.m = p.mass[i];
+      point.Omega = p.volume[i];
+      for (int j = 0; j < Dim; ++j) {
+        point.x[j] = p.x[j][i];
+        point.v[j] = p.v[j][i];
+      }
+      point.element = p.element[i];
+      exec::with_state(block, i, [&](const auto&, const auto& s) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(s)>, State>) point.state = s;
+      });
+      least_mass_ = std::min(least_mass_, 1e-12 * point.m);
+    }
+  }
+
+  std::vector<Point> points;
+  double kinetic_energy = 0, work_gravity = 0;
+
+  void advance(double dt, const StepSettings& settings) {
+    find_shapes(settings.quadrature == Quadrature::corrected);
+    // Steps 1 and 2 (eqs 1–4).
+    const auto nodes = body_.mesh->nodes.size();
+    std::vector<double> m(nodes, 0.0);
+    std::vector<Vec<Dim>> p(nodes), F(nodes), a(nodes), v(nodes), v_next(nodes);
+    std::vector<std::uint8_t> held(nodes, 0);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const Point& point = points[k];
+      for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
+        const int n = at_[k].node[i];
+        m[n] += point.m * at_[k].N[i];
+        for (int j = 0; j < Dim; ++j) {
+          p[n][j] += point.m * point.v[j] * at_[k].N[i];
+          for (int l = 0; l < Dim; ++l) F[n][j] += at_[k].B[i][l] * stress(point, l, j) * at_[k].w * point.Omega;
+        }
+      }
+    }
+    // Step 3 (eq. 5).
+    for (std::size_t n = 0; n < nodes; ++n) {
+      if (m[n] < least_mass_) continue;
+      for (int j = 0; j < Dim; ++j) {
+        const double force = m[n] * body_.gravity[j] - F[n][j];
+        v[n][j] = p[n][j] / m[n];
+        const double sign = v[n][j] > 0 ? 1 : v[n][j] < 0 ? -1 : 0;
+        a[n][j] = (force - settings.damping * std::abs(force) * sign) / m[n];
+      }
+      held[n] = constrain_acceleration<Dim>(body_.conditions, static_cast<int>(n), m[n], v[n], dt, a[n]).held;
+      for (int j = 0; j < Dim; ++j) v_next[n][j] = v[n][j] + a[n][j] * dt;
+      constrain_velocity<Dim>(body_.conditions, static_cast<int>(n), held[n], v_next[n]);
+    }
+    // Steps 4 and 5 (eqs 6–8).
+    std::vector<Vec<Dim>> momentum(nodes), v_end(nodes);
+    kinetic_energy = work_gravity = 0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      Point& point = points[k];
+      for (int j = 0; j < Dim; ++j) {
+        double pic = 0;
+        for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
+          point.v[j] += a[at_[k].node[i]][j] * at_[k].N[i] * dt;
+          pic += v_next[at_[k].node[i]][j] * at_[k].N[i];
+        }
+        point.v[j] = settings.flip * point.v[j] + (1 - settings.flip) * pic;
+        kinetic_energy += 0.5 * point.m * point.v[j] * point.v[j];
+        for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
+          momentum[at_[k].node[i]][j] += point.m * point.v[j] * at_[k].N[i];
+        }
+      }
+    }
+    for (std::size_t n = 0; n < nodes; ++n) {
+      if (m[n] < least_mass_) continue;
+      for (int j = 0; j < Dim; ++j) v_end[n][j] = momentum[n][j] / m[n];
+      constrain_velocity<Dim>(body_.conditions, static_cast<int>(n), held[n], v_end[n]);
+    }
+    // Steps 6 to 11 (eqs 9–19).
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      Point& point = points[k];
+      double L[Dim][Dim] = {};
+      for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
+        const auto& v_i = v_end[at_[k].node[i]];
+        for (int j = 0; j < Dim; ++j) {
+          for (int l = 0; l < Dim; ++l) L[j][l] += v_i[j] * at_[k].B[i][l];
+          point.x[j] += v_i[j] * dt * at_[k].N[i];
+          work_gravity += point.m * body_.gravity[j] * v_i[j] * dt * at_[k].N[i];
+        }
+      }
+      update_stress(point.state, L, dt, settings.integration);
+      point.Omega *= stretch(L, dt);
+      point.element = element_of(point);
+    }
+  }
+
+ private:
+  /// A point's local nodes with N_i and B̂_i, and the weight w of its volume.
+  struct AtPoint {
+    std::vector<int> node;
+    std::vector<double> N;
+    std::vector<Vec<Dim>> B;
+    double w = 1;
+  };
+
+  static double stress(const Point& point, int j, int k) {
+    static constexpr int shear[3][3] = {{0, 3, 5}, {3, 0, 4}, {5, 4, 0}};
+    return j == k ? -point.state.sigma[j] : -point.state.sigma[shear[j][k]] / std::sqrt(2.0);
+  }
+
+  static double stretch(const double (&L)[Dim][Dim], double dt) {
+    double f[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int j = 0; j < Dim; ++j) {
+      for (int k = 0; k < Dim; ++k) f[j][k] += L[j][k] * dt;
+    }
+    double det = 0;
+    for (int k = 0; k < 3; ++k) {
+      det += f[0][k] * (f[1][(k + 1) % 3] * f[2][(k + 2) % 3] - f[1][(k + 2) % 3] * f[2][(k + 1) % 3]);
+    }
+    return det;
+  }
+
+  void update_stress(State& s, const double (&L)[Dim][Dim], double dt, const IntegrationSettings& settings) const {
+    Sym<double, N> deps = Sym<double, N>::zero();
+    Spin<double, N> spin;
+    for (int j = 0; j < Dim; ++j) deps[j] = -L[j][j] * dt;
+    const int pairs[3][2] = {{0, 1}, {1, 2}, {2, 0}};
+    for (int c = 0; c < (Dim == 2 ? 1 : 3); ++c) {
+      const auto [j, k] = pairs[c];
+      deps[3 + c] = -std::sqrt(2.0) * 0.5 * (L[j][k] + L[k][j]) * dt;
+      spin.w[c] = 0.5 * (L[j][k] - L[k][j]) * dt;
+    }
+    rotate(s, Rotation<double, N>(spin));
+    const Increment<double, N> increment{deps, dt};
+    const auto whole = attempt<ModifiedEuler>(model_, s, increment, settings.tolerance);
+    if (whole.notes.sound && whole.error <= settings.tolerance) {
+      s = whole.state;
+    } else {
+      integrate<ModifiedEuler>(model_, s, increment, settings, 0.5);
+    }
+  }
+
+  int element_of(const Point& point) const {
+    const auto& mesh = *body_.mesh;
+    const auto holds = [&](int e) {
+      return with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
+        return Shape::beyond(Shape::local_coordinates(node_positions<Shape>(mesh, e), point.x)) <=
+               body_.locator.tolerance();
+      });
+    };
+    if (holds(point.element)) return point.element;
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      if (holds(e)) return e;
+    }
+    throw std::runtime_error("a point of the twin has left the mesh");
+  }
+
+  void find_shapes(bool corrected) {
+    const auto& mesh = *body_.mesh;
+    at_.assign(points.size(), {});
+    std::vector<std::vector<std::size_t>> in(mesh.types.size());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const int e = points[k].element;
+      in[e].push_back(k);
+      with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
+        const auto x_i = node_positions<Shape>(mesh, e);
+        std::array<double, Shape::nodes> N_i;
+        std::array<Vec<Dim>, Shape::nodes> B;
+        gradients<Shape>(x_i, Shape::local_coordinates(x_i, points[k].x), N_i, B);
+        const auto nodes = mesh.element_nodes(e);
+        at_[k] = {{nodes.begin(), nodes.end()}, {N_i.begin(), N_i.end()}, {B.begin(), B.end()}};
+      });
+    }
+    if (!corrected) return;
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      bool inside = !in[e].empty();
+      for (const int other : mesh.elements_around(e)) inside = inside && !in[other].empty();
+      if (inside) with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) { correct<Shape>(e, in[e]); });
+    }
+  }
+
+  /// Corrected quadrature inside the soil, as in docs/theory.md.
+  template <class Shape>
+  void correct(int e, const std::vector<std::size_t>& in) {
+    const auto x_i = node_positions<Shape>(*body_.mesh, e);
+    double V = 0, filled = 0;
+    std::array<Vec<Dim>, Shape::nodes> exact{}, mean{};
+    const auto add = [&](const Vec<Dim>& xi, double weight) {
+      std::array<double, Shape::nodes> N_i;
+      std::array<Vec<Dim>, Shape::nodes> B;
+      const double dV = weight * gradients<Shape>(x_i, xi, N_i, B);
+      V += dV;
+      for (int i = 0; i < Shape::nodes; ++i) {
+        for (int j = 0; j < Dim; ++j) exact[i][j] += B[i][j] * dV;
+      }
+    };
+    if constexpr (Shape::nodes == Dim + 1) {
+      add({}, Dim == 2 ? 0.5 : 1.0 / 6);
+    } else {
+      // Three Gauss points along each axis: one more than it takes.
+      const double place[3] = {-std::sqrt(0.6), 0, std::sqrt(0.6)}, weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
+      for (int q = 0; q < (Dim == 2 ? 9 : 27); ++q) {
+        const int k[3] = {q % 3, q / 3 % 3, q / 9};
+        Vec<Dim> xi;
+        double w = 1;
+        for (int j = 0; j < Dim; ++j) {
+          xi[j] = place[k[j]];
+          w *= weight[k[j]];
+        }
+        add(xi, w);
+      }
+    }
+    for (const auto k : in) {
+      filled += points[k].Omega;
+      for (int i = 0; i < Shape::nodes; ++i) {
+        for (int j = 0; j < Dim; ++j) mean[i][j] += points[k].Omega * at_[k].B[i][j];
+      }
+    }
+    if (!(filled > 0.5 * V && filled < 2 * V)) return;
+    for (const auto k : in) {
+      at_[k].w = V / filled;
+      for (int i = 0; i < Shape::nodes; ++i) {
+        for (int j = 0; j < Dim; ++j) at_[k].B[i][j] += exact[i][j] / V - mean[i][j] / filled;
+      }
+    }
+  }
+
+  const Body<Dim>& body_;
+  const Model& model_;
+  double least_mass_ = 1e300;
+  std::vector<AtPoint> at_;
+};
+
+}  // namespace scarp::test
