@@ -26,7 +26,7 @@ struct Arguments {
 };
 
 int run(const Arguments& arguments) {
-  const auto input = scarp::input::read_case(arguments.case_file, arguments.overrides);
+  const auto input = scarp::input::read_any_case(arguments.case_file, arguments.overrides);
   auto options = arguments.options;
   if (options.out.empty()) options.out = std::filesystem::path(arguments.case_file).stem().string() + ".out";
   const auto outcome = scarp::run::run_case(input, options);
@@ -35,7 +35,7 @@ int run(const Arguments& arguments) {
 }
 
 int check(const Arguments& arguments) {
-  fmt::print("{}", scarp::run::check_case(scarp::input::read_case(arguments.case_file, arguments.overrides)));
+  fmt::print("{}", scarp::run::check_case(scarp::input::read_any_case(arguments.case_file, arguments.overrides)));
   return 0;
 }
 

@@ -1,6 +1,7 @@
 """Draws the results of a run: `scarp plot DIR`.
 
-configurations.png  five panels (a)–(e) of the moving soil, coloured by a field
+configurations.png  five panels (a)–(e) of the moving soil, coloured by a field; in space a vertical section along x
+plan.png            the same from above, in space only
 fields.png          the last configuration, coloured by several fields
 history.png         energies, unbalanced force, velocity, time step and substeps over time
 """
@@ -90,6 +91,40 @@ class Run:
         return stages[-1]["start"] if stages else self.frames[0][0]
 
 
+class View:
+    """Which points are drawn, on which axes and how large: all in the plane; in space those near a vertical section along
+    x, or from above with the highest on top."""
+
+    def __init__(self, run, plan=False, section=None):
+        self.run, self.plan = run, plan
+        self.space = run.summary.get("dimension", 2) == 3
+        self.axes = (0, 2) if self.space and not plan else (0, 1)
+        self.names = ["xyz"[axis] + " [m]" for axis in self.axes]
+        self.section = section
+        if self.space and not plan and section is None:
+            last = len(run.frames) - 1  # through the point that has moved furthest
+            self.section = float(run.arrays(last)["Points"][np.nanargmax(run.field(last, "displacement")), 1])
+
+    def chosen(self, index):
+        """Numbers of the points that are drawn, in the order of drawing."""
+        positions = self.run.arrays(index)["Points"]
+        if not self.space:
+            return np.arange(len(positions))
+        if self.plan:
+            return np.argsort(positions[:, 2])
+        return np.flatnonzero(np.abs(positions[:, 1] - self.section) <= np.cbrt(np.median(self.run.arrays(index)["volume"])))
+
+    def coordinates(self, index):
+        return self.run.arrays(index)["Points"][:, list(self.axes)]
+
+    def sides(self, index):
+        volume = self.run.arrays(index)["volume"]
+        return np.cbrt(volume) if self.space else np.sqrt(volume)
+
+    def caption(self):
+        return f", section y = {self.section:.2f} m" if self.space and not self.plan else ""
+
+
 def choose_frames(run, count):
     """The first frame, the first one after the cut, and others as the soil has moved a quarter, two thirds and all of its way."""
     cut = run.cut_start()
@@ -108,27 +143,27 @@ def frames_at(run, times):
     return [min(range(len(run.frames)), key=lambda k: abs(run.frames[k][0] - t)) for t in times]
 
 
-def limits(run, indices):
+def limits(view, indices):
     low, high = np.full(2, np.inf), np.full(2, -np.inf)
     for k in indices:
-        positions = run.arrays(k)["Points"][:, :2]
+        positions = view.coordinates(k)
         low, high = np.minimum(low, positions.min(axis=0)), np.maximum(high, positions.max(axis=0))
     margin = 0.02 * (high - low).max()
     return low - margin, high + margin
 
 
-def draw_points(axes, run, index, values, low, high, colours, cmap):
+def draw_points(axes, view, index, values, low, high, colours, cmap):
     """Each point as a square a quarter larger than its own volume, so that sheared soil shows few gaps."""
-    arrays = run.arrays(index)
-    positions = arrays["Points"]
+    chosen = view.chosen(index)
+    positions = view.coordinates(index)[chosen]
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])
     axes.set_aspect("equal", adjustable="box")
     axes.figure.canvas.draw()
     points_per_metre = axes.get_window_extent().width / (high[0] - low[0]) * 72 / axes.figure.dpi
-    side = np.sqrt(arrays["volume"]) if "volume" in arrays else np.full(len(positions), 0.2)
+    side = view.sides(index)[chosen]
     return axes.scatter(
-        positions[:, 0], positions[:, 1], c=values, s=(1.25 * side * points_per_metre) ** 2, marker="s", linewidths=0,
+        positions[:, 0], positions[:, 1], c=values[chosen], s=(1.25 * side * points_per_metre) ** 2, marker="s", linewidths=0,
         cmap=cmap, vmin=colours[0], vmax=colours[1], rasterized=True)
 
 
@@ -144,11 +179,12 @@ def colour_range(values, given):
     return float(low), float(high if high > low else low + 1e-6)
 
 
-def configurations(plt, run, options):
+def configurations(plt, run, options, plan=False):
+    view = View(run, plan, options.section)
     indices = frames_at(run, options.times) if options.times else choose_frames(run, options.panels)
     name = options.field or run.summary.get("colour") or "displacement"
     label, cmap = LABELS.get(name, (name, "viridis"))
-    low, high = limits(run, indices)
+    low, high = limits(view, indices)
     colours = colour_range(run.field(indices[-1], name), options.range)
     width = 7.0
     height = width * (high[1] - low[1]) / (high[0] - low[0]) * 0.86 + 0.35
@@ -157,35 +193,40 @@ def configurations(plt, run, options):
     figure.subplots_adjust(left=0.09, right=0.97, top=1 - 0.3 / total, bottom=1.15 / total, hspace=0.3)
     for number, (axes, index) in enumerate(zip(panels[:, 0], indices)):
         letter = chr(ord("a") + number) if number < 26 else number + 1
-        drawn = draw_points(axes, run, index, run.field(index, name), low, high, colours, cmap)
-        axes.set_title(f"({letter})  t = {run.frames[index][0]:.2f} s", loc="left", fontsize=9)
-        axes.set_ylabel("y [m]", fontsize=8)
+        drawn = draw_points(axes, view, index, run.field(index, name), low, high, colours, cmap)
+        axes.set_title(f"({letter})  t = {run.frames[index][0]:.2f} s{view.caption()}", loc="left", fontsize=9)
+        axes.set_ylabel(view.names[1], fontsize=8)
         axes.tick_params(labelsize=8)
         axes.set_facecolor("0.97")
-    panels[-1, 0].set_xlabel("x [m]", fontsize=8)
+    panels[-1, 0].set_xlabel(view.names[0], fontsize=8)
     bar = figure.colorbar(drawn, cax=figure.add_axes([0.09, 0.5 / total, 0.88, 0.12 / total]), orientation="horizontal")
     bar.set_label(label, fontsize=8)
     bar.ax.tick_params(labelsize=8)
     return figure
 
 
-def fields(plt, run, _):
+def from_above(plt, run, options):
+    return configurations(plt, run, options, plan=True) if run.summary.get("dimension", 2) == 3 else None
+
+
+def fields(plt, run, options):
+    view = View(run, section=options.section)
     last = len(run.frames) - 1
     names = [name for name in OVERVIEW if name in run.arrays(last)]
-    low, high = limits(run, [last])
+    low, high = limits(view, [last])
     rows = (len(names) + 1) // 2
     height = 5.0 * (high[1] - low[1]) / (high[0] - low[0]) + 0.6
     figure, panels = plt.subplots(rows, 2, figsize=(11, height * rows), squeeze=False)
     for axes, name in zip(panels.flat, names):
         label, cmap = LABELS.get(name, (name, "viridis"))
         values = run.field(last, name)
-        drawn = draw_points(axes, run, last, values, low, high, colour_range(values, None), cmap)
+        drawn = draw_points(axes, view, last, values, low, high, colour_range(values, None), cmap)
         axes.set_title(label, fontsize=9, loc="left")
         axes.tick_params(labelsize=8)
         figure.colorbar(drawn, ax=axes, fraction=0.025, pad=0.02).ax.tick_params(labelsize=7)
     for axes in panels.flat[len(names):]:
         axes.axis("off")
-    figure.suptitle(f"t = {run.frames[last][0]:.2f} s", fontsize=10)
+    figure.suptitle(f"t = {run.frames[last][0]:.2f} s{view.caption()}", fontsize=10)
     return figure
 
 
@@ -235,6 +276,7 @@ def parse(arguments):
     parser.add_argument("--times", type=numbers, help="times of the configurations, t1,t2,...")
     parser.add_argument("--panels", type=int, default=5, help="number of configurations (5)")
     parser.add_argument("--range", type=numbers, help="colour range, low,high")
+    parser.add_argument("--section", type=float, help="y of the section, in space (through the point that moves furthest)")
     parser.add_argument("--out", help="folder for the pictures (DIR)")
     options = parser.parse_args(arguments)
     if options.range and len(options.range) != 2:
@@ -254,7 +296,8 @@ def main(arguments=None):
         import matplotlib
         matplotlib.use("Agg")
         import matplotlib.pyplot as plt
-        for name, draw in (("configurations", configurations), ("fields", fields), ("history", history)):
+        for name, draw in (("configurations", configurations), ("plan", from_above), ("fields", fields),
+                           ("history", history)):
             figure = draw(plt, run, options)
             if figure is None:
                 continue

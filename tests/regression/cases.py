@@ -51,6 +51,15 @@ every = 0.05
 history = 0.01
 """
 
+# The same column half a metre thick in space, z up.
+COLUMN_IN_SPACE = (
+    COLUMN.replace("[mesh]", "dimension = 3\n\n[mesh]")
+    .replace("size = [1.0, 4.0]", "size = [1.0, 0.5, 4.0]")
+    .replace("spacing = 0.25", "y = [0.0, 0.5]\nspacing = 0.25")
+    .replace('fix = ["x", "y"]', 'fix = ["x", "y", "z"]')
+    .replace("[[stage]]", '[[boundary]]\nnodes = "front"\nfix = ["y"]\n\n[[boundary]]\nnodes = "back"\nfix = ["y"]\n\n[[stage]]')
+)
+
 # A slope of structured clay, 10 m high, on elements of 1 m with about 1,400 points; half a second under its own weight,
 # then its toe is cut away and it fails.
 SLOPE = """title = "a small slope that fails"

@@ -18,7 +18,7 @@ import termios
 import time
 
 import cases
-from cases import COLUMN, SLOPE, ProgramTest, contents, frame_times, read, replaced
+from cases import COLUMN, COLUMN_IN_SPACE, SLOPE, ProgramTest, contents, frame_times, read, replaced
 
 
 class Results(ProgramTest):
@@ -32,6 +32,25 @@ class Results(ProgramTest):
     def history(self, folder):
         rows = list(csv.DictReader(io.StringIO(read(self.path(folder, "history.csv")).decode())))
         return [{key: float(value) for key, value in row.items()} for row in rows]
+
+    def test_a_column_in_space_is_the_plane_one_times_its_thickness(self):
+        # The same points in each of two layers, which move alike: all energies are half of those per metre.
+        self.write("plane.toml", replaced(COLUMN, "spacing = 0.25", "spacing = 0.25\nvelocity = [0.0, -0.1]"))
+        self.write("space.toml", replaced(COLUMN_IN_SPACE, "spacing = 0.25", "spacing = 0.25\nvelocity = [0.0, 0.0, -0.1]"))
+        self.scarp("run", "plane.toml", "--quiet", "--out", "plane")
+        self.scarp("run", "space.toml", "--quiet", "--out", "space")
+        plane, space = self.history("plane"), self.history("space")
+        self.assertEqual([row["time"] for row in plane], [row["time"] for row in space])
+        for key in ("mass", "kinetic_energy", "work_gravity", "work_stress", "dissipation_damping"):
+            largest = max(abs(row[key]) for row in plane)
+            for a, b in zip(plane, space):
+                self.assertAlmostEqual(0.5 * a[key], b[key], delta=1e-11 * largest, msg=key)  # rounding of a hundred steps
+        for row in space:
+            self.assertAlmostEqual(row["momentum_y"], 0, delta=1e-15)
+        self.assertEqual(self.summary("space")["dimension"], 3)
+        self.assertEqual(self.summary("space")["points"], 96)
+        self.assertAlmostEqual(self.summary("space")["stages"][0]["max_displacement"],
+                               self.summary("plane")["stages"][0]["max_displacement"], delta=1e-12)
 
     def test_summary_holds_what_it_promises(self):
         self.scarp("run", "column.toml", "--threads", "1", "--quiet")

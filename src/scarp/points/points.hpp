@@ -45,6 +45,14 @@ struct Points {
   double u(int j, int i) const { return x[j][i] - x_start[j][i]; }
 };
 
+/// x_p
+template <int Dim>
+Vec<Dim> position_of(const Points<Dim>& points, int i) {
+  Vec<Dim> x;
+  for (int j = 0; j < Dim; ++j) x[j] = points.x[j][i];
+  return x;
+}
+
 /// The points of one region, with their law and its state.
 template <int Dim>
 struct Block {

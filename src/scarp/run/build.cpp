@@ -15,10 +15,12 @@
 namespace scarp::run {
 namespace {
 
-std::unique_ptr<const Mesh<2>> make_mesh(const input::MeshInput& input) {
-  if (input.file) return std::make_unique<const Mesh<2>>(read_gmsh(*input.file));
+template <int Dim>
+std::unique_ptr<const Mesh<Dim>> make_mesh(const input::MeshInputOf<Dim>& input) {
+  if (input.file) return std::make_unique<const Mesh<Dim>>(read_gmsh<Dim>(*input.file));
   try {
-    return std::make_unique<const Mesh<2>>(make_grid(input.grid->origin, input.grid->size, input.grid->elements));
+    return std::make_unique<const Mesh<Dim>>(
+        make_grid<Dim>(input.grid->origin, input.grid->size, input.grid->elements));
   } catch (const InputError& error) {
     throw InputError(error.problem(), error.value(), error.remedy(), input.position);
   }
@@ -37,14 +39,45 @@ std::vector<int> nodes_on(const Mesh<2>& mesh, const std::array<Vec<2>, 2>& line
   return nodes;
 }
 
-std::vector<int> nodes_of(const Mesh<2>& mesh, const input::BoundaryInput& input) {
-  if (input.line) {
+/// Nodes in the box, within round-off of the mesh's size.
+std::vector<int> nodes_in(const Mesh<3>& mesh, const BoxOf<3>& box) {
+  double largest = 0;
+  for (const auto& x : mesh.nodes) {
+    for (const double coordinate : x) largest = std::max(largest, std::abs(coordinate));
+  }
+  const double tolerance = 1e-9 * largest;
+  std::vector<int> nodes;
+  for (int n = 0; n < mesh.node_count(); ++n) {
+    bool inside = true;
+    for (int j = 0; j < 3; ++j) {
+      const double x = mesh.nodes[n][j];
+      inside = inside && x >= box.low[j] - tolerance && x <= box.high[j] + tolerance;
+    }
+    if (inside) nodes.push_back(n);
+  }
+  return nodes;
+}
+
+template <int Dim>
+std::vector<int> nodes_in_place(const Mesh<Dim>& mesh, const input::BoundaryInput& input) {
+  if constexpr (Dim == 2) {
     auto nodes = nodes_on(mesh, *input.line);
     if (!nodes.empty()) return nodes;
     throw InputError("no node of the mesh lies on the line of this boundary",
                      fmt::format("({}) to ({})", fmt::join((*input.line)[0], ", "), fmt::join((*input.line)[1], ", ")),
                      "give a line along edges of elements, or name a node set with nodes = \"...\"", input.position);
+  } else {
+    auto nodes = nodes_in(mesh, *input.box);
+    if (!nodes.empty()) return nodes;
+    throw InputError("no node of the mesh lies in the box of this boundary",
+                     fmt::format("({}) to ({})", fmt::join(input.box->low, ", "), fmt::join(input.box->high, ", ")),
+                     "give a box that holds nodes, or name a node set with nodes = \"...\"", input.position);
   }
+}
+
+template <int Dim>
+std::vector<int> nodes_of(const Mesh<Dim>& mesh, const input::BoundaryInput& input) {
+  if (!input.nodes) return nodes_in_place(mesh, input);
   const auto found = mesh.node_sets.find(*input.nodes);
   if (found != mesh.node_sets.end()) return found->second;
   std::vector<std::string> names;
@@ -53,11 +86,12 @@ std::vector<int> nodes_of(const Mesh<2>& mesh, const input::BoundaryInput& input
                    fmt::format("choose one of {}", fmt::join(names, ", ")), input.position);
 }
 
-void set_conditions(Body<2>& body, const input::Case& input) {
+template <int Dim>
+void set_conditions(Body<Dim>& body, const input::CaseOf<Dim>& input) {
   for (const auto& boundary : input.boundaries) {
     const auto nodes = nodes_of(*body.mesh, boundary);
-    const bool fixed[2] = {boundary.fix_x, boundary.fix_y};
-    for (int j = 0; j < 2; ++j) {
+    const auto fixed = boundary.fixed();
+    for (int j = 0; j < Dim; ++j) {
       if (!fixed[j]) continue;
       if (!boundary.friction) {
         fix(body.conditions, nodes, j);
@@ -73,16 +107,17 @@ void set_conditions(Body<2>& body, const input::Case& input) {
 }
 
 /// The points of a region where they start, without their state.
-Block<2> make_block(const input::RegionInput& region, const input::MaterialInput& material, const Filling& filling,
-                    int first_id) {
-  Block<2> block(region.name, material.model);
+template <int Dim>
+Block<Dim> make_block(const input::RegionInputOf<Dim>& region, const input::MaterialInput& material,
+                      const FillingOf<Dim>& filling, int first_id) {
+  Block<Dim> block(region.name, material.model);
   resize(block, static_cast<int>(filling.position.size()));
   auto& points = block.points;
   for (int i = 0; i < block.size(); ++i) {
     points.volume[i] = points.initial_volume[i] = filling.volume[i];
     points.mass[i] = material.density * filling.volume[i];
     points.id[i] = first_id + i;
-    for (int j = 0; j < 2; ++j) {
+    for (int j = 0; j < Dim; ++j) {
       points.x[j][i] = filling.position[i][j];
       points.v[j][i] = region.velocity[j];
     }
@@ -90,14 +125,15 @@ Block<2> make_block(const input::RegionInput& region, const input::MaterialInput
   return block;
 }
 
-void check_overlap(const std::vector<input::RegionInput>& regions, const std::vector<Filling>& fillings) {
+template <int Dim>
+void check_overlap(const std::vector<input::RegionInputOf<Dim>>& regions, const std::vector<FillingOf<Dim>>& fillings) {
   for (std::size_t a = 0; a < regions.size(); ++a) {
     for (std::size_t b = 0; b < regions.size(); ++b) {
       if (a == b) continue;
-      if (const auto shared = overlap(regions[a].polygon, fillings[b])) {
+      if (const auto shared = overlap<Dim>(regions[a].shape(), fillings[b])) {
         throw InputError(fmt::format("the regions \"{}\" and \"{}\" overlap", regions[b].name, regions[a].name),
-                         fmt::format("({:.6g}, {:.6g}) in both", (*shared)[0], (*shared)[1]),
-                         "let regions share no more than their edges", regions[b].position);
+                         fmt::format("({:.6g}) in both", fmt::join(*shared, ", ")),
+                         "let regions share no more than their boundaries", regions[b].position);
       }
     }
   }
@@ -105,20 +141,21 @@ void check_overlap(const std::vector<input::RegionInput>& regions, const std::ve
 
 }  // namespace
 
-Body<2> build_body(const input::Case& input) {
-  Body<2> body(make_mesh(input.mesh), input.gravity);
-  std::vector<Filling> fillings;
-  std::vector<Overburden::Layer> layers;
+template <int Dim>
+Body<Dim> build_body(const input::CaseOf<Dim>& input) {
+  Body<Dim> body(make_mesh(input.mesh), input.gravity);
+  std::vector<FillingOf<Dim>> fillings;
+  std::vector<typename OverburdenOf<Dim>::Layer> layers;
   for (const auto& region : input.regions) {
-    const double count = moments(region.polygon).area / (region.spacing * region.spacing);
+    const double count = volume(region.shape()) / std::pow(region.spacing, Dim);
     if (!(count < 2e8)) {
       throw InputError(fmt::format("region \"{}\" has too many points", region.name),
                        fmt::format("about {:.3g}", count), "enlarge its spacing", region.position);
     }
-    fillings.push_back(fill(region.polygon, region.spacing));
-    layers.push_back({region.polygon, input.materials[region.material].density});
+    fillings.push_back(fill(region.shape(), region.spacing));
+    layers.push_back({region.shape(), input.materials[region.material].density});
   }
-  check_overlap(input.regions, fillings);
+  check_overlap<Dim>(input.regions, fillings);
   int first_id = 0;
   for (std::size_t r = 0; r < input.regions.size(); ++r) {
     const auto& region = input.regions[r];
@@ -126,7 +163,7 @@ Body<2> build_body(const input::Case& input) {
     first_id += body.blocks.back().size();
   }
   set_conditions(body, input);
-  const Overburden overburden(layers, std::hypot(input.gravity[0], input.gravity[1]));
+  const OverburdenOf<Dim> overburden(layers, std::abs(input.gravity[Dim - 1]));
   for (std::size_t r = 0; r < input.regions.size(); ++r) {
     set_initial_state(body.blocks[r], input.regions[r], overburden);
   }
@@ -141,5 +178,8 @@ Body<2> build_body(const input::Case& input) {
   }
   return body;
 }
+
+template Body<2> build_body<2>(const input::CaseOf<2>&);
+template Body<3> build_body<3>(const input::CaseOf<3>&);
 
 }  // namespace scarp::run

@@ -9,6 +9,7 @@ namespace scarp::run {
 /// Reads or makes the mesh, fills the regions, finds the points' elements, sets the boundary conditions and the initial
 /// state. Throws InputError for what only shows with mesh and points together: a mesh that does not hold the soil,
 /// regions that overlap, a node set that the mesh does not have, an initial state that a model cannot take.
-Body<2> build_body(const input::Case& input);
+template <int Dim>
+Body<Dim> build_body(const input::CaseOf<Dim>& input);
 
 }  // namespace scarp::run

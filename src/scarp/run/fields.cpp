@@ -14,25 +14,27 @@ namespace {
 
 /// A point of the body, by block and index, in the order of the points' numbers: frames then list points in the same
 /// order whatever the arrangement in memory.
-struct Place {
+struct Slot {
   int block, index;
 };
 
-std::vector<Place> places(const Body<2>& body) {
-  std::vector<Place> all;
+template <int Dim>
+std::vector<Slot> slots(const Body<Dim>& body) {
+  std::vector<Slot> all;
   for (int b = 0; b < static_cast<int>(body.blocks.size()); ++b) {
     for (int i = 0; i < body.blocks[b].size(); ++i) all.push_back({b, i});
   }
-  std::sort(all.begin(), all.end(), [&](const Place& x, const Place& y) {
+  std::sort(all.begin(), all.end(), [&](const Slot& x, const Slot& y) {
     return body.blocks[x.block].points.id[x.index] < body.blocks[y.block].points.id[y.index];
   });
   return all;
 }
 
 /// Collects fields over the points in order.
+template <int Dim>
 class Collector {
  public:
-  explicit Collector(const Body<2>& body) : body_(body), places_(places(body)) {}
+  explicit Collector(const Body<Dim>& body) : body_(body), places_(slots(body)) {}
 
   /// value(points, i) → double
   template <class F>
@@ -50,7 +52,7 @@ class Collector {
     data.reserve(3 * places_.size());
     for (const auto& at : places_) {
       const auto& points = body_.blocks[at.block].points;
-      data.insert(data.end(), {component(points, at.index, 0), component(points, at.index, 1), 0.0});
+      for (int j = 0; j < 3; ++j) data.push_back(j < Dim ? component(points, at.index, j) : 0.0);
     }
     fields_.push_back({name, 3, std::move(data)});
   }
@@ -75,9 +77,11 @@ class Collector {
     std::vector<double> data;
     data.reserve(6 * places_.size());
     for (const auto& at : places_) {
-      const Block<2>& block = body_.blocks[at.block];
-      for (int c = 0; c < 3; ++c) data.push_back(component(block, at.index, c));
-      data.insert(data.end(), {component(block, at.index, 3) / sqrt2, 0.0, 0.0});
+      const Block<Dim>& block = body_.blocks[at.block];
+      for (int c = 0; c < 6; ++c) {
+        const double once = c < 3 ? 1.0 : 1.0 / sqrt2;
+        data.push_back(c < sym_size<Dim> ? once * component(block, at.index, c) : 0.0);
+      }
     }
     fields_.push_back({name, 6, std::move(data)});
   }
@@ -90,12 +94,13 @@ class Collector {
  private:
   static constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-  const Body<2>& body_;
-  std::vector<Place> places_;
+  const Body<Dim>& body_;
+  std::vector<Slot> places_;
   std::vector<io::Field> fields_;
 };
 
-void Collector::model_fields() {
+template <int Dim>
+void Collector<Dim>::model_fields() {
   // For each declared name: where each block keeps it (column of the state), or -1.
   std::map<std::string, std::pair<FieldKind, std::vector<int>>> state;
   std::map<std::string, std::vector<int>> derived;
@@ -106,19 +111,19 @@ void Collector::model_fields() {
     for (const auto& info : description.state) {
       auto& entry = state.try_emplace(info.key, info.kind, nowhere).first->second;
       entry.second[b] = column;
-      column += info.kind == FieldKind::tensor ? 4 : 1;
+      column += info.kind == FieldKind::tensor ? sym_size<Dim> : 1;
     }
     for (std::size_t k = 0; k < description.derived.size(); ++k) {
       derived.try_emplace(description.derived[k].key, nowhere).first->second[b] = static_cast<int>(k);
     }
   }
-  auto column_of = [&](const std::vector<int>& columns, const Block<2>& block) {
+  auto column_of = [&](const std::vector<int>& columns, const Block<Dim>& block) {
     return columns[&block - body_.blocks.data()];
   };
   for (const auto& [name, entry] : state) {
     const auto& columns = entry.second;
     if (entry.first == FieldKind::tensor) {
-      tensor(name, [&](const Block<2>& block, int i, int c) {
+      tensor(name, [&](const Block<Dim>& block, int i, int c) {
         const int first = column_of(columns, block);
         return first < 0 ? nothing : block.state[first + c][i];
       });
@@ -142,40 +147,44 @@ void Collector::model_fields() {
   for (auto& [name, data] : values) fields_.push_back({name, 1, std::move(data)});
 }
 
-double mean_stress(const Points<2>& points, int i) {
+template <int Dim>
+double mean_stress(const Points<Dim>& points, int i) {
   return -(points.sigma[0][i] + points.sigma[1][i] + points.sigma[2][i]) / 3;
 }
 
-double deviatoric_stress_of(const Points<2>& points, int i) {
-  Sym<double, 4> sigma;
-  for (int c = 0; c < 4; ++c) sigma[c] = points.sigma[c][i];
+template <int Dim>
+double deviatoric_stress_of(const Points<Dim>& points, int i) {
+  Sym<double, sym_size<Dim>> sigma;
+  for (int c = 0; c < sym_size<Dim>; ++c) sigma[c] = points.sigma[c][i];
   return deviatoric_stress(sigma);
 }
 
 }  // namespace
 
-std::vector<double> frame_positions(const Body<2>& body) {
+template <int Dim>
+std::vector<double> frame_positions(const Body<Dim>& body) {
   std::vector<double> positions;
-  for (const auto& at : places(body)) {
+  for (const auto& at : slots(body)) {
     const auto& points = body.blocks[at.block].points;
-    positions.insert(positions.end(), {points.x[0][at.index], points.x[1][at.index], 0.0});
+    for (int j = 0; j < 3; ++j) positions.push_back(j < Dim ? points.x[j][at.index] : 0.0);
   }
   return positions;
 }
 
-std::vector<io::Field> frame_fields(const Body<2>& body) {
-  Collector collect(body);
+template <int Dim>
+std::vector<io::Field> frame_fields(const Body<Dim>& body) {
+  Collector<Dim> collect(body);
   collect.integer("id", [&](int b, int i) { return body.blocks[b].points.id[i]; });
   collect.integer("region", [](int b, int) { return b; });
-  collect.vector("displacement", [](const Points<2>& p, int i, int j) { return p.u(j, i); });
-  collect.vector("velocity", [](const Points<2>& p, int i, int j) { return p.v[j][i]; });
-  collect.tensor("stress", [](const Block<2>& block, int i, int c) { return -block.points.sigma[c][i]; });
-  collect.scalar("p", mean_stress);
-  collect.scalar("q", deviatoric_stress_of);
-  collect.scalar("eps_v", [](const Points<2>& p, int i) { return -std::log(p.volume[i] / p.initial_volume[i]); });
-  collect.scalar("eps_q", [](const Points<2>& p, int i) { return p.eps_q[i]; });
-  collect.scalar("volume", [](const Points<2>& p, int i) { return p.volume[i]; });
-  collect.scalar("density", [](const Points<2>& p, int i) { return p.mass[i] / p.volume[i]; });
+  collect.vector("displacement", [](const Points<Dim>& p, int i, int j) { return p.u(j, i); });
+  collect.vector("velocity", [](const Points<Dim>& p, int i, int j) { return p.v[j][i]; });
+  collect.tensor("stress", [](const Block<Dim>& block, int i, int c) { return -block.points.sigma[c][i]; });
+  collect.scalar("p", mean_stress<Dim>);
+  collect.scalar("q", deviatoric_stress_of<Dim>);
+  collect.scalar("eps_v", [](const Points<Dim>& p, int i) { return -std::log(p.volume[i] / p.initial_volume[i]); });
+  collect.scalar("eps_q", [](const Points<Dim>& p, int i) { return p.eps_q[i]; });
+  collect.scalar("volume", [](const Points<Dim>& p, int i) { return p.volume[i]; });
+  collect.scalar("density", [](const Points<Dim>& p, int i) { return p.mass[i] / p.volume[i]; });
   collect.model_fields();
   collect.integer("substeps", [&](int b, int i) { return static_cast<int>(body.blocks[b].points.substeps[i]); });
   collect.flag("separated", flag_separated);
@@ -184,5 +193,10 @@ std::vector<io::Field> frame_fields(const Body<2>& body) {
   collect.flag("failed", flag_failed);
   return collect.take();
 }
+
+template std::vector<double> frame_positions<2>(const Body<2>&);
+template std::vector<double> frame_positions<3>(const Body<3>&);
+template std::vector<io::Field> frame_fields<2>(const Body<2>&);
+template std::vector<io::Field> frame_fields<3>(const Body<3>&);
 
 }  // namespace scarp::run

@@ -1,6 +1,7 @@
 #include "scarp/run/initial.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,27 +13,30 @@
 namespace scarp::run {
 namespace {
 
+template <int Dim>
 struct InitialStress {
-  Sym<double, 4> sigma;  ///< compression positive
+  Sym<double, sym_size<Dim>> sigma;  ///< compression positive
   double vertical;
 };
 
-[[noreturn]] void refuse(const input::RegionInput& region, const Problem& problem, const Vec<2>& x) {
+template <int Dim>
+[[noreturn]] void refuse(const input::RegionInputOf<Dim>& region, const Problem& problem, const Vec<Dim>& x) {
   throw InputError(
-      fmt::format("region \"{}\", initial state at ({:.4g}, {:.4g}): {}", region.name, x[0], x[1], problem.what),
+      fmt::format("region \"{}\", initial state at ({:.4g}): {}", region.name, fmt::join(x, ", "), problem.what),
       problem.value, problem.remedy, region.position);
 }
 
-template <class State>
-void store(Block<2>& block, int i, const State& state) {
+template <int Dim, class State>
+void store(Block<Dim>& block, int i, const State& state) {
   const int columns = static_cast<int>(block.state.size());
+  constexpr int N = sym_size<Dim>;
   int c = 0;
   for_each_component(
       [&](const double& value) {
-        if (c < 4) {
+        if (c < N) {
           block.points.sigma[c][i] = -value;
-        } else if (c - 4 < columns) {
-          block.state[c - 4][i] = value;
+        } else if (c - N < columns) {
+          block.state[c - N][i] = value;
         }
         ++c;
       },
@@ -41,9 +45,10 @@ void store(Block<2>& block, int i, const State& state) {
 
 /// K0 at any vertical stress of a region: the user's number, or that of the model at the overconsolidation ratio that
 /// OCR or POP gives there.
+template <int Dim>
 class RegionK0 {
  public:
-  RegionK0(const Block<2>& block, const input::RegionInput& region, const Overburden& overburden) {
+  RegionK0(const Block<Dim>& block, const input::RegionInputOf<Dim>& region, const OverburdenOf<Dim>& overburden) {
     if (region.stress) return;
     if (region.K0) {
       number_ = *region.K0;
@@ -52,7 +57,7 @@ class RegionK0 {
     find_history(block, region);
     double least = 0, largest = 0;
     for (int i = 0; i < block.size(); ++i) {
-      const double vertical = overburden.vertical_stress({block.points.x[0][i], block.points.x[1][i]});
+      const double vertical = overburden.vertical_stress(position_of(block.points, i));
       largest = std::max(largest, vertical);
       if (vertical > 0 && (least == 0 || vertical < least)) least = vertical;
     }
@@ -81,7 +86,7 @@ class RegionK0 {
   }
 
  private:
-  void find_history(const Block<2>& block, const input::RegionInput& region) {
+  void find_history(const Block<Dim>& block, const input::RegionInputOf<Dim>& region) {
     const bool historyless = std::visit(
         [](const auto& model) {
           return requires {
@@ -115,30 +120,40 @@ class RegionK0 {
   std::vector<Level> levels_;  ///< vertical stress ascending, no further apart than a factor of 1.5
 };
 
-InitialStress stress_at(const input::RegionInput& region, const Overburden& overburden, const RegionK0& ratio,
-                        const Vec<2>& x) {
-  if (region.stress) return {to_mandel<4>(*region.stress), (*region.stress)[1]};
+template <int Dim>
+InitialStress<Dim> stress_at(const input::RegionInputOf<Dim>& region, const OverburdenOf<Dim>& overburden,
+                             const RegionK0<Dim>& ratio, const Vec<Dim>& x) {
+  constexpr int N = sym_size<Dim>, up = Dim - 1;
+  if (region.stress) return {to_mandel<N>(*region.stress), (*region.stress)[up]};
   const double vertical = overburden.vertical_stress(x);
   const double K0 = ratio(vertical);
-  return {Sym<double, 4>{{K0 * vertical, vertical, K0 * vertical, 0.0}}, vertical};
+  auto sigma = isotropic<double, N>(K0 * vertical);
+  sigma[up] = vertical;
+  return {sigma, vertical};
 }
 
 }  // namespace
 
-void set_initial_state(Block<2>& block, const input::RegionInput& region, const Overburden& overburden) {
-  const RegionK0 K0(block, region, overburden);
+template <int Dim>
+void set_initial_state(Block<Dim>& block, const input::RegionInputOf<Dim>& region,
+                       const OverburdenOf<Dim>& overburden) {
+  const RegionK0<Dim> K0(block, region, overburden);
   std::visit(
       [&](const auto& model) {
         for (int i = 0; i < block.size(); ++i) {
-          const Vec<2> x{block.points.x[0][i], block.points.x[1][i]};
-          const auto stress = stress_at(region, overburden, K0, x);
+          const auto x = position_of(block.points, i);
+          const auto stress = stress_at<Dim>(region, overburden, K0, x);
           std::vector<Problem> problems;
-          const auto state = model.template initial_state<4>(stress.sigma, stress.vertical, region.initial, problems);
-          if (!problems.empty()) refuse(region, problems.front(), x);
+          const auto state =
+              model.template initial_state<sym_size<Dim>>(stress.sigma, stress.vertical, region.initial, problems);
+          if (!problems.empty()) refuse<Dim>(region, problems.front(), x);
           store(block, i, state);
         }
       },
       block.model);
 }
+
+template void set_initial_state<2>(Block<2>&, const input::RegionInputOf<2>&, const OverburdenOf<2>&);
+template void set_initial_state<3>(Block<3>&, const input::RegionInputOf<3>&, const OverburdenOf<3>&);
 
 }  // namespace scarp::run

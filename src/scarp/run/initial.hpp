@@ -12,6 +12,7 @@ namespace scarp::run {
 /// horizontal ones K0 times that (K0 given, or that of the model's own oedometric loading and unloading to the point's
 /// OCR), or a uniform stress. Throws InputError with the region's place and the point for a state that the model cannot
 /// take.
-void set_initial_state(Block<2>& block, const input::RegionInput& region, const Overburden& overburden);
+template <int Dim>
+void set_initial_state(Block<Dim>& block, const input::RegionInputOf<Dim>& region, const OverburdenOf<Dim>& overburden);
 
 }  // namespace scarp::run

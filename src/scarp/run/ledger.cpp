@@ -2,7 +2,8 @@
 
 namespace scarp::run {
 
-void Ledger::add(double step, int points, const StepBooks<2>& books) {
+template <int Dim>
+void Ledger<Dim>::add(double step, int points, const StepBooks<Dim>& books) {
   time += step;
   dt = step;
   ++steps;
@@ -21,5 +22,8 @@ void Ledger::add(double step, int points, const StepBooks<2>& books) {
   corrected += books.stress.corrected;
   substeps += books.stress.substeps;
 }
+
+template struct Ledger<2>;
+template struct Ledger<3>;
 
 }  // namespace scarp::run

@@ -9,10 +9,11 @@
 namespace scarp::run {
 
 /// Sums since the start of the run, and the last step's values.
+template <int Dim>
 struct Ledger {
   double time = 0, dt = 0;
   std::int64_t steps = 0, point_steps = 0;
-  StepBooks<2> last;  ///< of the last step; its sums of work are of that step only
+  StepBooks<Dim> last;  ///< of the last step; its sums of work are of that step only
   SearchCounts search;
   double initial_mass = 0, removed_mass = 0;
   double initial_kinetic_energy = 0, removed_kinetic_energy = 0;
@@ -21,7 +22,7 @@ struct Ledger {
   std::int64_t removed_points = 0, failures = 0, corrected = 0, substeps = 0;
 
   /// Books one step over `points` points.
-  void add(double step, int points, const StepBooks<2>& books);
+  void add(double step, int points, const StepBooks<Dim>& books);
 
   /// Kinetic energy that nobody accounts for: ΔE_kin + removed − (work of gravity − work of stress − dissipation).
   double energy_error() const {

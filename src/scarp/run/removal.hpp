@@ -8,22 +8,23 @@
 namespace scarp::run {
 
 /// The lifts of one removal within a stage that starts at `start` [s].
+template <int Dim>
 class Removal {
  public:
-  Removal(const input::RemovalInput& input, double start);
+  Removal(const input::RemovalInputOf<Dim>& input, double start);
 
   bool finished() const { return done_ == input_.lifts; }
   /// When the next lift is due.
   double next_time() const;
   /// Takes out the points of all lifts that are due at `time`; mass and kinetic energy go to the ledger. Throws
   /// RunError when no point is left in the body.
-  void take_due(double time, Body<2>& body, Ledger& ledger);
+  void take_due(double time, Body<Dim>& body, Ledger<Dim>& ledger);
 
  private:
-  const input::RemovalInput& input_;
+  const input::RemovalInputOf<Dim>& input_;
   double start_;
   int done_ = 0;
-  Box box_;
+  BoxOf<Dim> box_;
 };
 
 }  // namespace scarp::run

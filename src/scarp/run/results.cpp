@@ -20,31 +20,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> history_columns = {"time",
-                                                  "dt",
-                                                  "stage",
-                                                  "points",
-                                                  "mass",
-                                                  "momentum_x",
-                                                  "momentum_y",
-                                                  "kinetic_energy",
-                                                  "work_gravity",
-                                                  "work_stress",
-                                                  "dissipation_damping",
-                                                  "dissipation_friction",
-                                                  "dissipation_pic",
-                                                  "energy_removed",
-                                                  "energy_error",
-                                                  "max_velocity",
-                                                  "unbalanced_ratio",
-                                                  "substeps_mean",
-                                                  "substeps_max",
-                                                  "failures",
-                                                  "corrected",
-                                                  "separated",
-                                                  "on_floor",
-                                                  "no_stiffness",
-                                                  "removed_points"};
+std::vector<std::string> history_columns(int dimension) {
+  std::vector<std::string> columns = {"time",
+                                      "dt",
+                                      "stage",
+                                      "points",
+                                      "mass",
+                                      "momentum_x",
+                                      "momentum_y",
+                                      "kinetic_energy",
+                                      "work_gravity",
+                                      "work_stress",
+                                      "dissipation_damping",
+                                      "dissipation_friction",
+                                      "dissipation_pic",
+                                      "energy_removed",
+                                      "energy_error",
+                                      "max_velocity",
+                                      "unbalanced_ratio",
+                                      "substeps_mean",
+                                      "substeps_max",
+                                      "failures",
+                                      "corrected",
+                                      "separated",
+                                      "on_floor",
+                                      "no_stiffness",
+                                      "removed_points"};
+  if (dimension == 3) columns.insert(std::find(columns.begin(), columns.end(), "kinetic_energy"), "momentum_z");
+  return columns;
+}
 
 std::string frame_name(int index) {
   return fmt::format("points_{:05}.vtu", index);
@@ -52,8 +56,9 @@ std::string frame_name(int index) {
 
 /// Is this a file that scarp writes into a folder of results?
 bool is_ours(const std::string& name) {
-  static const std::vector<std::string> names = {"points.pvd", "mesh.vtu",           "history.csv", "summary.json",
-                                                 "case.toml",  "configurations.png", "fields.png",  "history.png"};
+  static const std::vector<std::string> names = {"points.pvd",   "mesh.vtu",   "history.csv",
+                                                 "summary.json", "case.toml",  "configurations.png",
+                                                 "plan.png",     "fields.png", "history.png"};
   const bool frame = name.starts_with("points_") && name.ends_with(".vtu");
   return frame || name.ends_with(".part") || std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -111,7 +116,8 @@ nlohmann::ordered_json stages_json(const std::vector<StageRecord>& stages) {
 
 }  // namespace
 
-struct Results::Writers {
+template <int Dim>
+struct Results<Dim>::Writers {
   Writers(io::PvdWriter frames_list, io::HistoryWriter table)
       : collection(std::move(frames_list)), history(std::move(table)) {}
 
@@ -121,7 +127,8 @@ struct Results::Writers {
   double last_frame = -1, last_row = -1;  ///< times; what falls due at the end of a stage is written once
 };
 
-Results::Results(const input::Case& input, const std::string& folder, const Body<2>& body)
+template <int Dim>
+Results<Dim>::Results(const input::CaseOf<Dim>& input, const std::string& folder, const Body<Dim>& body)
     : input_(input), folder_(folder) {
   // Read before the folder is cleared: the case may be the copy that an earlier run left in it.
   std::ifstream source(input.path, std::ios::binary);
@@ -132,12 +139,14 @@ Results::Results(const input::Case& input, const std::string& folder, const Body
   io::write_whole(folder_ + "/case.toml", case_text);
   io::write_mesh_vtu(folder_ + "/mesh.vtu", *body.mesh);
   writers_ = std::make_unique<Writers>(io::PvdWriter(folder_ + "/points.pvd"),
-                                       io::HistoryWriter(folder_ + "/history.csv", history_columns));
+                                       io::HistoryWriter(folder_ + "/history.csv", history_columns(Dim)));
 }
 
-Results::~Results() = default;
+template <int Dim>
+Results<Dim>::~Results() = default;
 
-void Results::frame(const Body<2>& body, double time) {
+template <int Dim>
+void Results<Dim>::frame(const Body<Dim>& body, double time) {
   if (time == writers_->last_frame) return;
   writers_->last_frame = time;
   const auto name = frame_name(writers_->frames++);
@@ -145,45 +154,49 @@ void Results::frame(const Body<2>& body, double time) {
   writers_->collection.add(time, name);
 }
 
-void Results::history(int stage, int points, const Ledger& l) {
+template <int Dim>
+void Results<Dim>::history(int stage, int points, const Ledger<Dim>& l) {
   if (l.time == writers_->last_row) return;
   writers_->last_row = l.time;
   const auto& stress = l.last.stress;
-  const std::vector<double> row = {l.time,
-                                   l.dt,
-                                   static_cast<double>(stage),
-                                   static_cast<double>(points),
-                                   l.last.mass,
-                                   l.last.momentum[0],
-                                   l.last.momentum[1],
-                                   l.last.kinetic_energy,
-                                   l.work_gravity,
-                                   l.work_stress,
-                                   l.dissipation_damping,
-                                   l.dissipation_friction,
-                                   l.dissipation_pic,
-                                   l.removed_kinetic_energy,
-                                   l.energy_error(),
-                                   l.last.max_velocity,
-                                   l.unbalanced_ratio(),
-                                   points > 0 ? static_cast<double>(stress.substeps) / points : 0.0,
-                                   static_cast<double>(stress.most_substeps),
-                                   static_cast<double>(l.failures),
-                                   static_cast<double>(l.corrected),
-                                   static_cast<double>(stress.separated),
-                                   static_cast<double>(stress.on_floor),
-                                   static_cast<double>(stress.no_stiffness),
-                                   static_cast<double>(l.removed_points)};
+  std::vector<double> row = {l.time,
+                             l.dt,
+                             static_cast<double>(stage),
+                             static_cast<double>(points),
+                             l.last.mass,
+                             l.last.momentum[0],
+                             l.last.momentum[1],
+                             l.last.kinetic_energy,
+                             l.work_gravity,
+                             l.work_stress,
+                             l.dissipation_damping,
+                             l.dissipation_friction,
+                             l.dissipation_pic,
+                             l.removed_kinetic_energy,
+                             l.energy_error(),
+                             l.last.max_velocity,
+                             l.unbalanced_ratio(),
+                             points > 0 ? static_cast<double>(stress.substeps) / points : 0.0,
+                             static_cast<double>(stress.most_substeps),
+                             static_cast<double>(l.failures),
+                             static_cast<double>(l.corrected),
+                             static_cast<double>(stress.separated),
+                             static_cast<double>(stress.on_floor),
+                             static_cast<double>(stress.no_stiffness),
+                             static_cast<double>(l.removed_points)};
+  if constexpr (Dim == 3) row.insert(row.begin() + 7, l.last.momentum[2]);
   writers_->history.row(row);
 }
 
-void Results::summary(const Body<2>& body, const Ledger& ledger, const RunRecord& record) {
+template <int Dim>
+void Results<Dim>::summary(const Body<Dim>& body, const Ledger<Dim>& ledger, const RunRecord& record) {
   const auto work = static_cast<double>(std::max<std::int64_t>(1, ledger.point_steps));
   const nlohmann::ordered_json json = {{"title", input_.title},
                                        {"version", version},
                                        {"case", input_.path},
                                        {"status", record.status},
                                        {"message", record.message},
+                                       {"dimension", Dim},
                                        {"points", body.point_count()},
                                        {"elements", body.mesh->element_count()},
                                        {"threads", record.threads},
@@ -203,14 +216,22 @@ void Results::summary(const Body<2>& body, const Ledger& ledger, const RunRecord
   io::write_whole(folder_ + "/summary.json", json.dump(2) + "\n");
 }
 
-double max_displacement(const Body<2>& body) {
+template <int Dim>
+double max_displacement(const Body<Dim>& body) {
   double largest = 0;
   for (const auto& block : body.blocks) {
     for (int i = 0; i < block.size(); ++i) {
-      largest = std::max(largest, std::hypot(block.points.u(0, i), block.points.u(1, i)));
+      double u2 = 0;
+      for (int j = 0; j < Dim; ++j) u2 += block.points.u(j, i) * block.points.u(j, i);
+      largest = std::max(largest, std::sqrt(u2));
     }
   }
   return largest;
 }
+
+template class Results<2>;
+template class Results<3>;
+template double max_displacement<2>(const Body<2>&);
+template double max_displacement<3>(const Body<3>&);
 
 }  // namespace scarp::run

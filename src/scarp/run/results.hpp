@@ -31,27 +31,29 @@ struct RunRecord {
   std::vector<StageRecord> stages;
 };
 
+template <int Dim>
 class Results {
  public:
   /// Prepares the folder: makes it, or clears an earlier result of scarp out of it. Throws InputError where the folder
   /// holds other things.
-  Results(const input::Case& input, const std::string& folder, const Body<2>& body);
+  Results(const input::CaseOf<Dim>& input, const std::string& folder, const Body<Dim>& body);
   ~Results();
   Results(const Results&) = delete;
   Results& operator=(const Results&) = delete;
 
-  void frame(const Body<2>& body, double time);
-  void history(int stage, int points, const Ledger& ledger);
-  void summary(const Body<2>& body, const Ledger& ledger, const RunRecord& record);
+  void frame(const Body<Dim>& body, double time);
+  void history(int stage, int points, const Ledger<Dim>& ledger);
+  void summary(const Body<Dim>& body, const Ledger<Dim>& ledger, const RunRecord& record);
 
  private:
   struct Writers;
-  const input::Case& input_;
+  const input::CaseOf<Dim>& input_;
   std::string folder_;
   std::unique_ptr<Writers> writers_;
 };
 
 /// The largest displacement of a point [m].
-double max_displacement(const Body<2>& body);
+template <int Dim>
+double max_displacement(const Body<Dim>& body);
 
 }  // namespace scarp::run

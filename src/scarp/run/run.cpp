@@ -41,11 +41,13 @@ class SignalGuard {
 /// The account since the cut, or since the start of a run without one: the energy error over the work of gravity.
 class EnergyCheck {
  public:
-  void start(const Ledger& ledger) {
+  template <int Dim>
+  void start(const Ledger<Dim>& ledger) {
     error_ = ledger.energy_error();
     work_ = ledger.work_gravity;
   }
-  double relative(const Ledger& ledger) const {
+  template <int Dim>
+  double relative(const Ledger<Dim>& ledger) const {
     const double work = std::abs(ledger.work_gravity - work_);
     return work > 0 ? std::abs(ledger.energy_error() - error_) / work : 0.0;
   }
@@ -54,8 +56,9 @@ class EnergyCheck {
   double error_ = 0, work_ = 0;
 };
 
-Ledger open_ledger(const Body<2>& body) {
-  Ledger ledger;
+template <int Dim>
+Ledger<Dim> open_ledger(const Body<Dim>& body) {
+  Ledger<Dim> ledger;
   book_motion(body, ledger.last);
   ledger.initial_mass = ledger.last.mass;
   ledger.initial_kinetic_energy = ledger.last.kinetic_energy;
@@ -63,18 +66,18 @@ Ledger open_ledger(const Body<2>& body) {
 }
 
 /// When the run ends if this stage, which starts at `time`, and those after it take all their durations [s].
-double latest_end(const input::Case& input, int stage, double time) {
+template <int Dim>
+double latest_end(const input::CaseOf<Dim>& input, int stage, double time) {
   for (std::size_t i = stage; i < input.stages.size(); ++i) time += input.stages[i].duration;
   return time;
 }
 
-}  // namespace
-
-Outcome run_case(const input::Case& input, const Options& options) {
+template <int Dim>
+Outcome run_in(const input::CaseOf<Dim>& input, const Options& options) {
   const int threads = exec::set_threads(options.threads);
-  Body<2> body = build_body(input);
-  Ledger ledger = open_ledger(body);
-  Results results(input, options.out, body);
+  Body<Dim> body = build_body(input);
+  Ledger<Dim> ledger = open_ledger(body);
+  Results<Dim> results(input, options.out, body);
 
   const SignalGuard guard;
   const std::function<bool()> interrupted = [] { return asked_to_stop.load(); };
@@ -92,7 +95,7 @@ Outcome run_case(const input::Case& input, const Options& options) {
   write_summary("running", "");
   try {
     Progress progress(options.quiet);
-    Context context{input, body, ledger, results, progress, interrupted};
+    Context<Dim> context{input, body, ledger, results, progress, interrupted};
     bool cut = false;
     for (int i = 0; i < static_cast<int>(input.stages.size()) && !interrupted(); ++i) {
       progress.stage(input.stages[i].name, i, static_cast<int>(input.stages.size()), latest_end(input, i, ledger.time));
@@ -113,8 +116,9 @@ Outcome run_case(const input::Case& input, const Options& options) {
   return interrupted() ? Outcome::interrupted : Outcome::done;
 }
 
-std::string check_case(const input::Case& input) {
-  const Body<2> body = build_body(input);
+template <int Dim>
+std::string check_in(const input::CaseOf<Dim>& input) {
+  const Body<Dim> body = build_body(input);
   std::string text = fmt::format("{}: {}\n", input.path, input.title);
   text += fmt::format("  mesh: {} elements, {} nodes, {}\n", body.mesh->element_count(), body.mesh->node_count(),
                       body.mesh->grid ? "a structured grid" : "unstructured");
@@ -125,8 +129,9 @@ std::string check_case(const input::Case& input) {
       mass += block.points.mass[i];
       volume += block.points.volume[i];
     }
-    text += fmt::format("    region \"{}\": {} points, area {:.6g} m2, mass {:.6g} per m\n", block.name, block.size(),
-                        volume, mass);
+    text += fmt::format(Dim == 2 ? "    region \"{}\": {} points, area {:.6g} m2, mass {:.6g} per m\n"
+                                 : "    region \"{}\": {} points, volume {:.6g} m3, mass {:.6g}\n",
+                        block.name, block.size(), volume, mass);
   }
   const double critical = critical_time_step(body);
   const double dt = input.method.safety * critical;
@@ -137,6 +142,16 @@ std::string check_case(const input::Case& input) {
                         std::ceil(stage.duration / dt));
   }
   return text;
+}
+
+}  // namespace
+
+Outcome run_case(const input::AnyCase& input, const Options& options) {
+  return std::visit([&](const auto& its) { return run_in(its, options); }, input);
+}
+
+std::string check_case(const input::AnyCase& input) {
+  return std::visit([](const auto& its) { return check_in(its); }, input);
 }
 
 }  // namespace scarp::run

@@ -20,9 +20,9 @@ struct Options {
 /// other origin with the same names are refused. SIGINT and SIGTERM end the run after the step under way, with
 /// everything written up to there. Throws InputError for a bad case and RunError for a computation that cannot go on
 /// (its last state is written first).
-Outcome run_case(const input::Case& input, const Options& options);
+Outcome run_case(const input::AnyCase& input, const Options& options);
 
 /// Builds mesh, points and initial state, and describes them: what `scarp check` prints.
-std::string check_case(const input::Case& input);
+std::string check_case(const input::AnyCase& input);
 
 }  // namespace scarp::run

@@ -13,31 +13,39 @@ namespace scarp::run {
 namespace {
 
 /// The energy that the weight of the body has over its height: the measure of a small kinetic energy.
-double weight_energy(const Body<2>& body) {
+template <int Dim>
+double weight_energy(const Body<Dim>& body) {
   double low = std::numeric_limits<double>::infinity(), high = -low, mass = 0;
   for (const auto& block : body.blocks) {
     for (int i = 0; i < block.size(); ++i) {
-      low = std::min(low, block.points.x[1][i]);
-      high = std::max(high, block.points.x[1][i]);
+      low = std::min(low, block.points.x[Dim - 1][i]);
+      high = std::max(high, block.points.x[Dim - 1][i]);
       mass += block.points.mass[i];
     }
   }
-  return mass * std::hypot(body.gravity[0], body.gravity[1]) * (high - low);
+  double g2 = 0;
+  for (const double g : body.gravity) g2 += g * g;
+  return mass * std::sqrt(g2) * (high - low);
 }
 
 /// Watches whether the body is at rest for long enough.
 class RestWatch {
  public:
-  RestWatch(const input::RestInput& rest, const Body<2>& body) : rest_(rest), scale_(weight_energy(body)) {}
+  template <int Dim>
+  RestWatch(const input::RestInput& rest, const Body<Dim>& body) : rest_(rest), scale_(weight_energy(body)) {}
 
-  bool at_rest(const Ledger& ledger) {
+  template <int Dim>
+  bool at_rest(const Ledger<Dim>& ledger) {
     const bool calm = ledger.unbalanced_ratio() <= rest_.unbalanced && kinetic(ledger) <= rest_.kinetic;
     calm_for_ = calm ? calm_for_ + ledger.dt : 0.0;
     return calm && calm_for_ >= rest_.hold;
   }
 
   /// Kinetic energy in parts of the weight's.
-  double kinetic(const Ledger& ledger) const { return scale_ > 0 ? ledger.last.kinetic_energy / scale_ : 0; }
+  template <int Dim>
+  double kinetic(const Ledger<Dim>& ledger) const {
+    return scale_ > 0 ? ledger.last.kinetic_energy / scale_ : 0;
+  }
 
  private:
   const input::RestInput& rest_;
@@ -45,7 +53,8 @@ class RestWatch {
   double calm_for_ = 0;  ///< [s]
 };
 
-void set_to_zero(Body<2>& body, const input::StageInput& stage, Ledger& ledger) {
+template <int Dim>
+void set_to_zero(Body<Dim>& body, const input::StageInputOf<Dim>& stage, Ledger<Dim>& ledger) {
   for (auto& block : body.blocks) {
     auto& points = block.points;
     if (stage.zero_displacement) {
@@ -95,7 +104,8 @@ std::string end_text(IntegrationEnd end) {
   }
 }
 
-void check_failures(const Context& context) {
+template <int Dim>
+void check_failures(const Context<Dim>& context) {
   const auto& ledger = context.ledger;
   if (ledger.failures <= context.input.method.largest_failures) return;
   throw RunError(
@@ -107,7 +117,8 @@ void check_failures(const Context& context) {
 }
 
 /// One step of the body; an error tells when it came.
-StepBooks<2> step(Context& context, double dt, const StepSettings& settings) {
+template <int Dim>
+StepBooks<Dim> step(Context<Dim>& context, double dt, const StepSettings& settings) {
   try {
     return advance(context.body, dt, settings);
   } catch (const RunError& error) {
@@ -117,7 +128,8 @@ StepBooks<2> step(Context& context, double dt, const StepSettings& settings) {
   }
 }
 
-double stable_time_step(const Context& context, double critical) {
+template <int Dim>
+double stable_time_step(const Context<Dim>& context, double critical) {
   if (!std::isfinite(critical)) {
     throw RunError("no point has any stiffness left, so that there is no critical time step",
                    fmt::format("t = {:.6g} s", context.ledger.time), "look at the last frame: all soil has separated");
@@ -125,7 +137,8 @@ double stable_time_step(const Context& context, double critical) {
   return context.input.method.safety * critical;
 }
 
-[[noreturn]] void refuse_unrest(const input::StageInput& stage, const StageRecord& record, double kinetic) {
+template <int Dim>
+[[noreturn]] void refuse_unrest(const input::StageInputOf<Dim>& stage, const StageRecord& record, double kinetic) {
   throw RunError(
       fmt::format("the ground does not come to rest in stage \"{}\" within {:g} s", stage.name, stage.duration),
       fmt::format("an unbalanced force ratio of {:.3g} (asked: {:g}), a kinetic energy of {:.3g} of the weight's "
@@ -135,9 +148,10 @@ double stable_time_step(const Context& context, double critical) {
 }
 
 /// Keeps the record of a stage true at its end, whichever way it ends.
+template <int Dim>
 class RecordKeeper {
  public:
-  RecordKeeper(StageRecord& record, const Context& context) : record_(record), context_(context) {}
+  RecordKeeper(StageRecord& record, const Context<Dim>& context) : record_(record), context_(context) {}
   ~RecordKeeper() { update(); }
   RecordKeeper(const RecordKeeper&) = delete;
   RecordKeeper& operator=(const RecordKeeper&) = delete;
@@ -152,19 +166,20 @@ class RecordKeeper {
 
  private:
   StageRecord& record_;
-  const Context& context_;
+  const Context<Dim>& context_;
 };
 
 }  // namespace
 
-void run_stage(Context& context, int index, StageRecord& record) {
+template <int Dim>
+void run_stage(Context<Dim>& context, int index, StageRecord& record) {
   const auto& stage = context.input.stages[index];
   auto& [input, body, ledger, results, progress, interrupted] = context;
   record = {stage.name, ledger.time, ledger.time, 0, 0, 0, 0, stage.remove.has_value(), "failed"};
-  RecordKeeper keeper(record, context);
+  RecordKeeper<Dim> keeper(record, context);
   const double end = ledger.time + stage.duration;
   set_to_zero(body, stage, ledger);
-  std::optional<Removal> removal;
+  std::optional<Removal<Dim>> removal;
   if (stage.remove) removal.emplace(*stage.remove, ledger.time);
   std::optional<RestWatch> rest;
   if (stage.rest) rest.emplace(*stage.rest, body);
@@ -201,5 +216,8 @@ void run_stage(Context& context, int index, StageRecord& record) {
   if (stage.rest && stage.rest->required && !resting && !interrupted())
     refuse_unrest(stage, record, rest->kinetic(ledger));
 }
+
+template void run_stage<2>(Context<2>&, int, StageRecord&);
+template void run_stage<3>(Context<3>&, int, StageRecord&);
 
 }  // namespace scarp::run

@@ -13,11 +13,12 @@
 namespace scarp::run {
 
 /// Everything that stages share.
+template <int Dim>
 struct Context {
-  const input::Case& input;
-  Body<2>& body;
-  Ledger& ledger;
-  Results& results;
+  const input::CaseOf<Dim>& input;
+  Body<Dim>& body;
+  Ledger<Dim>& ledger;
+  Results<Dim>& results;
   Progress& progress;
   const std::function<bool()>& interrupted;
 };
@@ -25,6 +26,7 @@ struct Context {
 /// Runs stage number `index` and keeps its record. Ends early at rest, where the stage asks for it, or when
 /// interrupted. Throws RunError where the body does not come to rest but has to, where stress updates fail more often
 /// than allowed, or where a step cannot be taken; the record tells how far it came.
-void run_stage(Context& context, int index, StageRecord& record);
+template <int Dim>
+void run_stage(Context<Dim>& context, int index, StageRecord& record);
 
 }  // namespace scarp::run
