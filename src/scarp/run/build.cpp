@@ -131,9 +131,11 @@ void check_overlap(const std::vector<input::RegionInputOf<Dim>>& regions, const 
     for (std::size_t b = 0; b < regions.size(); ++b) {
       if (a == b) continue;
       if (const auto shared = overlap<Dim>(regions[a].shape(), fillings[b])) {
-        throw InputError(fmt::format("the regions \"{}\" and \"{}\" overlap", regions[b].name, regions[a].name),
-                         fmt::format("({:.6g}) in both", fmt::join(*shared, ", ")),
-                         "let regions share no more than their boundaries", regions[b].position);
+        throw InputError(
+            fmt::format("the regions \"{}\" and \"{}\" overlap", regions[b].name, regions[a].name),
+            fmt::format("({:.6g}) in both", fmt::join(*shared, ", ")),
+            Dim == 2 ? "let regions share no more than their edges" : "let regions share no more than their faces",
+            regions[b].position);
       }
     }
   }
