@@ -55,6 +55,7 @@ int parse_and_call(int argc, char** argv) {
   run_command->add_option("--out", arguments.options.out, "folder of the results (CASE without .toml, with .out)");
   run_command->add_option("--threads", arguments.options.threads, "number of threads (all that the system gives)")
       ->check(CLI::Range(1, 1024));
+  run_command->add_flag("--profile", arguments.options.profile, "print at the end how the time of the steps was spent");
   run_command->add_flag("--quiet", arguments.options.quiet, "no progress");
   auto* check_command = app.add_subcommand("check", "Read a case, build mesh and points, and describe them");
   check_command->add_option("CASE", arguments.case_file, "case file (TOML)")->required();

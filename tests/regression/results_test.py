@@ -52,6 +52,12 @@ class Results(ProgramTest):
         self.assertAlmostEqual(self.summary("space")["stages"][0]["max_displacement"],
                                self.summary("plane")["stages"][0]["max_displacement"], delta=1e-12)
 
+    def test_the_profile_shares_out_the_whole(self):
+        text = self.scarp("run", "column.toml", "--quiet", "--profile").stdout
+        shares = [float(share) for share in re.findall(r" (\d+\.\d) %", text)]
+        self.assertEqual(len(shares), 6, text)
+        self.assertAlmostEqual(sum(shares), 100, delta=0.3)  # six roundings to 0.05
+
     def test_summary_holds_what_it_promises(self):
         self.scarp("run", "column.toml", "--threads", "1", "--quiet")
         summary = self.summary("column.out")  # where it goes without --out

@@ -18,6 +18,7 @@ void Ledger<Dim>::add(double step, int points, const StepBooks<Dim>& books) {
   removed_kinetic_energy += books.removed_energy;
   removed_mass += books.removed_mass;
   removed_points += books.removed;
+  for (int i = 0; i < phases; ++i) seconds[i] += books.seconds[i];
   failures += books.stress.failures;
   corrected += books.stress.corrected;
   substeps += books.stress.substeps;

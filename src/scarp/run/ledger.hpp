@@ -2,6 +2,7 @@
 // summary.json.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "scarp/step/step.hpp"
@@ -19,6 +20,7 @@ struct Ledger {
   double initial_kinetic_energy = 0, removed_kinetic_energy = 0;
   double work_gravity = 0, work_stress = 0;
   double dissipation_damping = 0, dissipation_friction = 0, dissipation_pic = 0;
+  std::array<double, phases> seconds{};  ///< of each Phase; only where asked for
   std::int64_t removed_points = 0, failures = 0, corrected = 0, substeps = 0;
 
   /// Books one step over `points` points.

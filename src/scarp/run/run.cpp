@@ -6,6 +6,7 @@
 #include <cmath>
 #include <csignal>
 #include <functional>
+#include <numeric>
 
 #include "scarp/base/error.hpp"
 #include "scarp/exec/parallel.hpp"
@@ -65,6 +66,18 @@ Ledger<Dim> open_ledger(const Body<Dim>& body) {
   return ledger;
 }
 
+/// How the time of the steps was spent, threads added up.
+template <int Dim>
+void print_profile(const Ledger<Dim>& ledger) {
+  const double total = std::accumulate(ledger.seconds.begin(), ledger.seconds.end(), 0.0);
+  if (!(total > 0)) return;
+  fmt::print("phase of the step                      share   ns per point and step\n");
+  for (int i = 0; i < phases; ++i) {
+    fmt::print("{:36} {:6.1f} %  {:8.1f}\n", phase_names[i], 100 * ledger.seconds[i] / total,
+               1e9 * ledger.seconds[i] / static_cast<double>(ledger.point_steps));
+  }
+}
+
 /// When the run ends if this stage, which starts at `time`, and those after it take all their durations [s].
 template <int Dim>
 double latest_end(const input::CaseOf<Dim>& input, int stage, double time) {
@@ -95,7 +108,7 @@ Outcome run_in(const input::CaseOf<Dim>& input, const Options& options) {
   write_summary("running", "");
   try {
     Progress progress(options.quiet);
-    Context<Dim> context{input, body, ledger, results, progress, interrupted};
+    Context<Dim> context{input, body, ledger, results, progress, interrupted, options.profile};
     bool cut = false;
     for (int i = 0; i < static_cast<int>(input.stages.size()) && !interrupted(); ++i) {
       progress.stage(input.stages[i].name, i, static_cast<int>(input.stages.size()), latest_end(input, i, ledger.time));
@@ -112,6 +125,7 @@ Outcome run_in(const input::CaseOf<Dim>& input, const Options& options) {
     write_summary("failed", error.what());
     throw;
   }
+  if (options.profile) print_profile(ledger);
   write_summary(interrupted() ? "interrupted" : "done", "");
   return interrupted() ? Outcome::interrupted : Outcome::done;
 }

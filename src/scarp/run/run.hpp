@@ -10,9 +10,10 @@ namespace scarp::run {
 enum class Outcome { done, interrupted };
 
 struct Options {
-  std::string out;     ///< folder of the results, made if it is not there
-  int threads = 0;     ///< 0: as many as the system gives
-  bool quiet = false;  ///< no progress
+  std::string out;       ///< folder of the results, made if it is not there
+  int threads = 0;       ///< 0: as many as the system gives
+  bool quiet = false;    ///< no progress
+  bool profile = false;  ///< print at the end how the time was spent
 };
 
 /// Runs the case and writes points.pvd with its frames, mesh.vtu, history.csv, summary.json and a copy of the case into

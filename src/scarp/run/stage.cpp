@@ -174,7 +174,7 @@ class RecordKeeper {
 template <int Dim>
 void run_stage(Context<Dim>& context, int index, StageRecord& record) {
   const auto& stage = context.input.stages[index];
-  auto& [input, body, ledger, results, progress, interrupted] = context;
+  auto& [input, body, ledger, results, progress, interrupted, profile] = context;
   record = {stage.name, ledger.time, ledger.time, 0, 0, 0, 0, stage.remove.has_value(), "failed"};
   RecordKeeper<Dim> keeper(record, context);
   const double end = ledger.time + stage.duration;
@@ -187,7 +187,8 @@ void run_stage(Context<Dim>& context, int index, StageRecord& record) {
                               stage.damping,
                               input.method.corrected_quadrature ? Quadrature::corrected : Quadrature::points,
                               {input.method.tolerance, 1e-5},
-                              input.method.remove_leaving};
+                              input.method.remove_leaving,
+                              profile};
   Clock frames(ledger.time, input.output.every), rows(ledger.time, input.output.history);
   double critical = critical_time_step(body);
   bool resting = false, first = true;

@@ -21,6 +21,7 @@ struct Context {
   Results<Dim>& results;
   Progress& progress;
   const std::function<bool()>& interrupted;
+  bool profile = false;  ///< book the time of each phase of a step
 };
 
 /// Runs stage number `index` and keeps its record. Ends early at rest, where the stage asks for it, or when
