@@ -45,7 +45,8 @@ TEST(Solid, BoxIsABox) {
 TEST(Solid, ContainsInEveryDirection) {
   for (int axis = 0; axis < 3; ++axis) {
     const Solid solid = Prism{slope, axis, -1, 4};
-    const auto [i, j] = section_axes(axis);
+    const auto axes = section_axes(axis);
+    const int i = axes[0], j = axes[1];
     const auto at = [&](double a, double b, double along) {
       Vec<3> x;
       x[i] = a, x[j] = b, x[axis] = along;
