@@ -36,7 +36,7 @@ bench:
 	bench/table.py $(BUILD)/bench.json
 
 figures: build
-	for script in examples constants work_precision kinks; do \
+	for script in examples constants models work_precision kinks; do \
 	  /usr/bin/python3 tools/figures/$$script.py $(BUILD)/bin/scarp || exit 1; done
 
 deps:

@@ -3,13 +3,16 @@
 import argparse
 import csv
 import io
+import json
 import pathlib
 import subprocess
+import tempfile
 
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COMPONENTS = ("xx", "yy", "zz", "xy", "yz", "zx")
+DOT = {"ls": "none", "marker": "o", "ms": 3.5, "mfc": "none", "color": "k", "zorder": 5}  # a closed form
 
 
 def arguments(description):
@@ -37,6 +40,30 @@ def lab(program, test, *changes):
     return columns(done.stdout), done.stderr.strip()
 
 
+def toml(table):
+    return [f"{key} = {json.dumps(value)}" for key, value in table.items()]
+
+
+def curve_of(program, material, stress, *stages, initial=None, path=None, early=False):
+    """The curve of one test from tables of its file: normal stresses, stages; `path` holds six columns of strain for a
+    strain path. `early` allows a test that stops early."""
+    lines = ["[material]", *toml(material), "[initial]", *toml({"stress": [*map(float, stress), 0.0, 0.0, 0.0]}),
+             *toml(initial or {}), "[integration]", "tolerance = 1e-8"]
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for stage in stages:
+            if path is not None:
+                stage = {**stage, "file": "path.csv"}
+                np.savetxt(folder / "path.csv", np.array([path[c] for c in COMPONENTS]).T, delimiter=",")
+            lines += ["[[stage]]", *toml(stage)]
+        test = folder / "test.toml"
+        test.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        curve, says = lab(program, test)
+    if says and not early:
+        raise SystemExit(says)
+    return curve
+
+
 def pyplot():
     """Matplotlib with the look that all figures have."""
     import matplotlib
@@ -45,3 +72,11 @@ def pyplot():
     plt.rcParams.update({"font.size": 8, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.1,
                          "axes.titlesize": 9, "legend.fontsize": 7})
     return plt
+
+
+def titles(axes, *names):
+    """Panel by panel: title, what is along x, what is along y."""
+    for one, (name, x, y) in zip(np.ravel(axes), names):
+        one.set_title(name, loc="left")
+        one.set_xlabel(x)
+        one.set_ylabel(y)
