@@ -160,6 +160,14 @@ class Specimen {
     return best;
   }
 
+  /// Does the soil itself have no answer to some strain, whatever the constraints?
+  bool is_unstable(const Law& law) const {
+    for (const auto& strain : guesses()) {
+      if (!law.soil_rate(soil_, strain).sound) return true;
+    }
+    return false;
+  }
+
   /// The constraints met at every state along the increment.
   Step along_rates(const Vector6& b) {
     const Law law(model_, *constraints_, b, leg_dt_, guesses());
@@ -174,7 +182,7 @@ class Specimen {
       if (norm(moved) > 0) last_ = moved;
       return outcome(report);
     }
-    if (!law.soil_rate(soil_, last_).sound) {
+    if (is_unstable(law)) {
       auto unstable = report;
       unstable.end = IntegrationEnd::unstable;
       return outcome(unstable);

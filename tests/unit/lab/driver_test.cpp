@@ -301,6 +301,18 @@ TEST(Driver, ALimitPointUnderStressControlIsNamedAndRowsBeforeItKept) {
   EXPECT_NEAR(curve.last("q"), peak, 0.02 * peak);
 }
 
+// Bonds that break faster than the elastic law can follow: no strain has an answer, whatever drives the test.
+TEST(Driver, AnInstabilityOfTheSoilIsNoLimitPoint) {
+  auto constants = scarp::test::full_constants();
+  constants["c_b"] = 1000;
+  for (const char* type : {"triaxial-undrained", "oedometer", "triaxial-drained"}) {
+    auto test = clay({named(type, "eps_a", {0.05}, 10)});
+    test.model = made("subloading", constants);
+    const auto curve = run(test);
+    EXPECT_NE(curve.problem.find("the soil is unstable"), std::string::npos) << type << ": " << curve.problem;
+  }
+}
+
 // After the peak a falling stress can be met by unloading and by failing further: the soil unloads.
 TEST(Driver, ASofteningSoilUnloadsWhenItsStressIsLowered) {
   const auto curve =
