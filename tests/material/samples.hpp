@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -77,6 +78,23 @@ inline Sample sample(const std::string& model) {
             {{"library", SCARP_UMATS "/elastic_c.so"}, {"constants", std::vector<double>{2e4, 0.3}}}};
   }
   throw std::invalid_argument("add constants and initial values of the model " + model + " to this list");
+}
+
+/// Where theory says σ : dε^p ≥ 0, the constants and initial values for that; nothing where there is no plastic strain.
+///  - associated flow on a convex surface around zero stress (von Mises, Tresca); with dilation no more than friction
+///    (Mohr-Coulomb, Drucker-Prager: on the cone it is (q − M_ψ p) dκ, q = M p + k)
+///  - Modified Cam Clay: p p_c dΛ
+///  - the subloading laws do where they reduce to that, σ = R σ_y: associated, without anisotropy, tensile strength and
+///    motion of the centre. Otherwise part of the work is stored with the centre and the anisotropy.
+inline std::optional<Sample> dissipative(const std::string& model) {
+  if (model == "linear-elastic" || model == "neo-hookean" || model == "umat") return {};
+  auto s = sample(model);
+  if (model == "subloading" || model == "viscoplastic-subloading") {
+    for (const auto* key : {"xi", "c_beta", "c_a"}) s.constants[key] = 0;
+    s.constants["alpha"] = 1;
+    s.initial = {{"R_b", 2.5}, {"OCR", 1.6}};
+  }
+  return s;
 }
 
 /// A random state of the subloading model with 0 < R ≤ 1, ‖s̄‖ and the Lode angle anywhere.

@@ -58,9 +58,11 @@ struct Softening {
   bool active() const { return over > 0.0 && residual != peak; }
   double slope() const { return active() ? (residual - peak) / over : 0.0; }
 
+  /// Formed from the residual value, which it meets to the last bit: a strength below zero, be it by rounding, is none.
   template <class T>
   T operator()(const T& kappa) const {
-    return active() ? T(peak) + T((residual - peak) / over) * min(max(kappa, T(0.0)), T(over)) : T(peak);
+    return active() ? T(residual) + T((peak - residual) / over) * (T(over) - min(max(kappa, T(0.0)), T(over)))
+                    : T(peak);
   }
 };
 

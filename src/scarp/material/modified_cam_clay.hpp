@@ -243,7 +243,9 @@ Trial<ModifiedCamClay::State<T, N>, T> ModifiedCamClay::update(const State<T, N>
   const Sym<T, N>& deps = increment.deps;
   Trial<State<T, N>, T> trial{s, T(0.0), {}};
   trial.state.sigma = elastic(s.sigma, deps);
-  const Mask<T> inside = yield(trial.state.sigma, s.p_c) <= T(0.0), start = admissible(s);
+  // A point that rests is not taken back to the surface by the rounding that it stands beyond it.
+  const Mask<T> inside = (yield(trial.state.sigma, s.p_c) <= T(0.0)) || (dot(deps, deps) == T(0.0));
+  const Mask<T> start = admissible(s);
   Mask<T> sound = start, drifted = !start && start;
   if (!all(inside)) {
     const Sym<T, N> way = trial.state.sigma - s.sigma;

@@ -260,7 +260,8 @@ Subloading::Hardening<T, N> Subloading::hardening(const State<T, N>& s, const Im
   Hardening<T, N> r;
   const Sym<T, N> s_bar = y.h.S0 + y.h.S1;  // at the current stress
   const T size = norm(s_bar);
-  const Sym<T, N> direction = select(size > T(1e-13) * s.p_c, T(1.0) / size, T(0.0)) * s_bar;
+  // Deviatoric to rounding of its own: that of s̄ is of p, which may be far larger, and would add up in beta.
+  const Sym<T, N> direction = deviator(select(size > T(1e-13) * s.p_c, T(1.0) / size, T(0.0)) * s_bar);
   const T eta = eta_beta_cs(T(c_.M_c) * willam_warnke(cos_3_lode_of_unit(direction), c_.k));
   r.beta = (T(pace_beta_) * y.norm_g_dev * y.p) * (T(0.81649658092772603273) * eta * direction - s.beta);  // eq. 32
   r.R_b = T(c_.c_b) * (T(c_.R_bf) - s.R_b) * y.norm_g;                                                     // eq. 36

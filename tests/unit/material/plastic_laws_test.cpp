@@ -167,6 +167,33 @@ TEST(PlasticLaws, SofteningInTriaxialCompression) {
   expect_triaxial_softening<DruckerPrager>();
 }
 
+// Sand that has lost its cohesion has exactly none: with a strength of −1e-15 the tip of the cone would lie in
+// compression, and a point at no stress outside it.
+TEST(PlasticLaws, SoftenedStrengthIsTheResidualOne) {
+  std::mt19937 generator(12);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int i = 0; i < 1000; ++i) {
+    const double peak = 100 * uniform(generator), over = 0.1 * uniform(generator);
+    const Softening lost{peak, 0, over}, some{peak, 0.3 * peak, over};
+    EXPECT_EQ(lost(over), 0);
+    EXPECT_EQ(lost(2 * over), 0);
+    EXPECT_EQ(some(2 * over), 0.3 * peak);
+    EXPECT_NEAR(some(0.0), peak, 1e-15 * peak);
+    EXPECT_GE(lost(over * (1 - 1e-16 * static_cast<double>(i))), 0);
+  }
+  const auto law = std::get<DruckerPrager>(made("drucker-prager", {{"E", 54673.4},
+                                                                   {"nu", 0.478},
+                                                                   {"c", 49.5551},
+                                                                   {"c_residual", 0},
+                                                                   {"phi", 42},
+                                                                   {"phi_residual", 28.5},
+                                                                   {"psi", 3.5},
+                                                                   {"epsp_residual", 0.0291745}}));
+  PlasticState<double, 6> s{isotropic<double, 6>(5e-15), Sym<double, 6>::zero(), 0.196};
+  EXPECT_TRUE(law.accept(s, 1e-4).sound);
+  EXPECT_LT(norm(s.sigma), 1e-14);  // and a number
+}
+
 // Pulled apart, a cohesionless point has no stress, is counted as separated, and takes load again once closed.
 TEST(PlasticLaws, SeparationAndCutoff) {
   const auto dry = law<MohrCoulomb>(sand, {{"c", 0}});
