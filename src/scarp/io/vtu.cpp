@@ -112,14 +112,6 @@ void write_points_vtu(const std::string& path, std::span<const double> positions
 }
 
 template <int Dim>
-std::vector<double> three_coordinates(const std::array<std::vector<double>, Dim>& columns) {
-  std::vector<double> positions(3 * columns[0].size(), 0.0);
-  for (int k = 0; k < Dim; ++k)
-    for (std::size_t p = 0; p < columns[k].size(); ++p) positions[3 * p + k] = columns[k][p];
-  return positions;
-}
-
-template <int Dim>
 void write_mesh_vtu(const std::string& path, const Mesh<Dim>& mesh) {
   Piece piece(mesh.nodes.size(), mesh.types.size());
   std::vector<double> positions(3 * mesh.nodes.size(), 0.0);
@@ -136,8 +128,6 @@ void write_mesh_vtu(const std::string& path, const Mesh<Dim>& mesh) {
   write_whole(path, piece.file());
 }
 
-template std::vector<double> three_coordinates<2>(const std::array<std::vector<double>, 2>&);
-template std::vector<double> three_coordinates<3>(const std::array<std::vector<double>, 3>&);
 template void write_mesh_vtu(const std::string&, const Mesh<2>&);
 template void write_mesh_vtu(const std::string&, const Mesh<3>&);
 

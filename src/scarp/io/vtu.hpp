@@ -1,7 +1,6 @@
 // VTK XML files of unstructured grids (.vtu), appended raw binary: what ParaView reads.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -23,11 +22,6 @@ struct Field {
 /// Writes points as vertices with fields. `positions` has three coordinates a point. Throws RunError where writing
 /// fails or a field does not have components × points values.
 void write_points_vtu(const std::string& path, std::span<const double> positions, std::span<const Field> fields);
-
-/// Positions as write_points_vtu() takes them, from one column for each axis: three coordinates a point, z = 0 in the
-/// plane.
-template <int Dim>
-std::vector<double> three_coordinates(const std::array<std::vector<double>, Dim>& columns);
 
 /// Writes the mesh: triangles and quadrilaterals, or tetrahedra and hexahedra.
 template <int Dim>
