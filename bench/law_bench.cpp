@@ -158,7 +158,8 @@ struct Soil {
 Soil make_soil(const Subloading& model, int substeps) {
   const Columns<4> c = make_points<4>(model);
   Soil soil{Block<2>("bench", model), {}};
-  auto& [block, strains] = soil;
+  Block<2>& block = soil.block;  // no structured binding: clang 14 does not capture those in a lambda
+  Strains<2>& strains = soil.strains;
   resize(block, points);
   block.order.resize(points);
   std::iota(block.order.begin(), block.order.end(), 0);
