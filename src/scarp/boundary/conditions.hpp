@@ -23,6 +23,12 @@ struct Conditions {
       : fixed(node_count, 0), normal(node_count, -1), inward(node_count, 0.0), friction(node_count, 0.0) {}
 };
 
+/// Is nothing imposed at node n?
+template <int Dim>
+inline bool is_free(const Conditions<Dim>& conditions, int n) {
+  return conditions.fixed[n] == 0 && conditions.normal[n] < 0;
+}
+
 /// Holds component j of the nodes.
 template <int Dim>
 void fix(Conditions<Dim>& conditions, std::span<const int> nodes, int component);

@@ -38,12 +38,15 @@ Node<Dim> accelerated(const Body<Dim>& body, int n, const double* sum, double dt
   Node<Dim> node;
   node.m = sum[0];
   const double *p = sum + 1, *F_int = p + Dim;
+  const double per_mass = 1 / node.m;
   for (int j = 0; j < Dim; ++j) {
     const double F = node.m * body.gravity[j] - F_int[j];
-    node.v[j] = p[j] / node.m;
-    node.F_damping[j] = node.v[j] == 0 ? 0 : -std::copysign(damping * std::abs(F), node.v[j]);
-    node.a[j] = (F + node.F_damping[j]) / node.m;
+    node.v[j] = p[j] * per_mass;
+    if (damping != 0 && node.v[j] != 0) node.F_damping[j] = -std::copysign(damping * std::abs(F), node.v[j]);
+    node.a[j] = (F + node.F_damping[j]) * per_mass;
+    node.v_next[j] = node.v[j] + node.a[j] * dt;
   }
+  if (is_free(body.conditions, n)) return node;
   const auto reaction = constrain_acceleration<Dim>(body.conditions, n, node.m, node.v, dt, node.a);
   node.F_friction = reaction.friction;
   node.held = reaction.held;
@@ -81,13 +84,14 @@ void velocities_of_nodes(Body<Dim>& body, double dt, StepBooks<Dim>& books) {
     body.assembly.gather(k, [&](int place) {
       for (int j = 0; j < Dim; ++j) p[j] += body.buffers.momentum[static_cast<std::size_t>(place) * Dim + j];
     });
+    const double per_mass = 1 / node.m;
     for (int j = 0; j < Dim; ++j) {
-      const double v = p[j] / node.m, path = 0.5 * (node.v[j] + v) * dt;
+      const double v = p[j] * per_mass, path = 0.5 * (node.v[j] + v) * dt;
       part.dissipation_damping -= node.F_damping[j] * path;
       part.dissipation_friction -= node.F_friction[j] * path;
       node.v[j] = v;
     }
-    constrain_velocity<Dim>(body.conditions, n, node.held, node.v);
+    if (!is_free(body.conditions, n)) constrain_velocity<Dim>(body.conditions, n, node.held, node.v);
     for (int j = 0; j < Dim; ++j) part.work_gravity += node.m * body.gravity[j] * node.v[j] * dt;
   });
 }
