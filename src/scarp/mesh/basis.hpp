@@ -2,7 +2,8 @@
 //   B::dim, B::nodes         the dimension and the number of local nodes that a point of an element touches
 //   B::stores_local          whether points keep their local coordinates (where finding them is dear)
 //   B::Cell(mesh, e)         what it knows of element e, made once per element and sweep, with
-//     local(x)               local coordinates of x (where the basis does not store them)
+//     local(x)               local coordinates of x (where the basis does not store them); or
+//     follow(x, local)       local coordinates of x from those of a point nearby; where that worked
 //     inside(local, tol)     is that in the element, or beyond it by no more than tol parts of its height?
 //     shape(local, N)        N_i
 //     gradients(local, N, B) N_i and B_i = dN_i/dx
@@ -15,7 +16,7 @@
 
 #include "scarp/mesh/mesh.hpp"
 #include "scarp/mesh/shapes.hpp"
-#include "scarp/tensor/scalar.hpp"
+#include "scarp/tensor/batch.hpp"
 
 namespace scarp {
 
@@ -238,6 +239,41 @@ struct Box {
       for (int i = 0; i < nodes; ++i) x_[i] = mesh.nodes[n[i]];
     }
 
+    /// Newton's method from xi, the local coordinates of a point of the element not far from x. Convergence is
+    /// quadratic: after a step of 1e-9 nothing but round-off is left. `wanted(mask)` says whether all that matter are
+    /// in.
+    template <class T, class F>
+    Mask<T> follow(const std::array<T, Dim>& x, std::array<T, Dim>& xi, F&& wanted) const {
+      std::array<T, Dim> s = unit(xi);
+      Mask<T> good = s[0] != s[0];
+      for (int iteration = 0; iteration < 6 && !wanted(good); ++iteration) {
+        std::array<T, nodes> N;
+        multilinear<Dim>(s, N);
+        std::array<T, Dim> off = x;
+        for (int j = 0; j < Dim; ++j) {
+          for (int i = 0; i < nodes; ++i) off[j] = off[j] - N[i] * T(x_[i][j]);
+        }
+        std::array<std::array<T, Dim>, nodes> dN;
+        std::array<std::array<T, Dim>, Dim> I;
+        good = jacobian(s, dN, I) > T(0.0);
+        for (int k = 0; k < Dim; ++k) {
+          T step = I[k][0] * off[0];
+          for (int j = 1; j < Dim; ++j) step = step + I[k][j] * off[j];
+          s[k] = s[k] + step;
+          good = good && (abs(step) < T(1e-9));
+        }
+      }
+      for (int k = 0; k < Dim; ++k) xi[k] = T(2.0) * s[k] - T(1.0);
+      return good;
+    }
+
+    template <class T>
+    Mask<T> inside(const std::array<T, Dim>& xi, double tolerance) const {
+      Mask<T> yes = abs(xi[0]) <= T(1 + 2 * tolerance);
+      for (int d = 1; d < Dim; ++d) yes = yes && (abs(xi[d]) <= T(1 + 2 * tolerance));
+      return yes;
+    }
+
     template <class T>
     void shape(const std::array<T, Dim>& xi, std::array<T, nodes>& N) const {
       multilinear<Dim>(unit(xi), N);
@@ -252,19 +288,33 @@ struct Box {
     }
 
     void integrals(double& V, std::array<Vec<Dim>, nodes>& g) const {
-      // Two Gauss points along each axis are exact: det J dN/dx is of second degree in each local coordinate.
-      V = 0;
-      g = {};
-      constexpr double gauss[2] = {0.21132486540518711775, 0.78867513459481288225}, part = 1.0 / nodes;
-      for (int q = 0; q < nodes; ++q) {
-        Vec<Dim> s;
-        for (int d = 0; d < Dim; ++d) s[d] = gauss[far_side(q, d)];
-        std::array<Vec<Dim>, nodes> B;
-        const double det = jacobian_and_gradients(s, B);
-        V += part * det;
-        for (int i = 0; i < nodes; ++i) {
-          for (int j = 0; j < Dim; ++j) g[i][j] += part * det * B[i][j];
+      // Two Gauss points along each axis are exact: det J dN/dx is of second degree in each local coordinate. A Gauss
+      // point in each lane.
+      using T = PointBatch<Dim>;
+      constexpr int W = lanes_of<T>;
+      constexpr double gauss[2] = {0.21132486540518711775, 0.78867513459481288225};
+      constexpr std::size_t numbers = whole_batches<T>(1 + nodes * Dim);
+      alignas(64) std::array<double, numbers> sums{};
+      for (int first = 0; first < nodes; first += W) {
+        std::array<T, Dim> s;
+        for (int d = 0; d < Dim; ++d) {
+          double lanes[W];
+          for (int l = 0; l < W; ++l) lanes[l] = gauss[far_side(first + l, d)];
+          s[d] = T::load_unaligned(lanes);
         }
+        std::array<std::array<T, Dim>, nodes> B;
+        const T part = T(1.0 / nodes) * jacobian_and_gradients(s, B);
+        std::array<T, numbers> values;
+        values.fill(T(0.0));
+        values[0] = part;
+        for (int i = 0; i < nodes; ++i) {
+          for (int j = 0; j < Dim; ++j) values[1 + i * Dim + j] = part * B[i][j];
+        }
+        add_lanes(values, sums.data());
+      }
+      V = sums[0];
+      for (int i = 0; i < nodes; ++i) {
+        for (int j = 0; j < Dim; ++j) g[i][j] = sums[1 + i * Dim + j];
       }
     }
 
@@ -276,20 +326,28 @@ struct Box {
       return s;
     }
 
+    /// dN_i/ds and ds/dx at s; returns det dx/ds.
     template <class T>
-    T jacobian_and_gradients(const std::array<T, Dim>& s, std::array<std::array<T, Dim>, nodes>& B) const {
+    T jacobian(const std::array<T, Dim>& s, std::array<std::array<T, Dim>, nodes>& dN,
+               std::array<std::array<T, Dim>, Dim>& I) const {
       Vec<Dim> one;
       one.fill(1.0);
-      std::array<std::array<T, Dim>, nodes> dN;
       multilinear_gradients<Dim>(s, one, dN);
-      std::array<std::array<T, Dim>, Dim> J, I;
+      std::array<std::array<T, Dim>, Dim> J;
       for (int j = 0; j < Dim; ++j) {
         for (int k = 0; k < Dim; ++k) {
           J[j][k] = T(x_[0][j]) * dN[0][k];
           for (int i = 1; i < nodes; ++i) J[j][k] = J[j][k] + T(x_[i][j]) * dN[i][k];
         }
       }
-      const T det = inverse(J, I);
+      return inverse(J, I);
+    }
+
+    template <class T>
+    T jacobian_and_gradients(const std::array<T, Dim>& s, std::array<std::array<T, Dim>, nodes>& B) const {
+      std::array<std::array<T, Dim>, nodes> dN;
+      std::array<std::array<T, Dim>, Dim> I;
+      const T det = jacobian(s, dN, I);
       for (int i = 0; i < nodes; ++i) {
         for (int j = 0; j < Dim; ++j) {
           B[i][j] = dN[i][0] * I[0][j];

@@ -100,6 +100,8 @@ void rebuild(Body<Dim>& body) {
   buffers.sums.resize(places * transfer::node_sums<Dim>);
   buffers.momentum.resize(places * Dim);
   buffers.node.resize(body.mesh->nodes.size());
+  buffers.v_next.resize(body.mesh->nodes.size());
+  buffers.resistance.resize(body.mesh->nodes.size());
 }
 
 }  // namespace

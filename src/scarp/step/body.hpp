@@ -21,8 +21,12 @@ struct Node {
   double m = 0;           ///< eq. 1
   Vec<Dim> v{};           ///< v^t; after step 5, v^{t+dt} (eq. 8)
   Vec<Dim> a{};           ///< eq. 5
-  Vec<Dim> v_next{};      ///< v^t + a dt with its conditions: what the PIC share of points takes
   std::uint8_t held = 0;  ///< bit j set where the conditions hold component j
+};
+
+/// Forces on a node that take energy from the body.
+template <int Dim>
+struct Resistance {
   Vec<Dim> F_damping{};   ///< local damping
   Vec<Dim> F_friction{};  ///< of a wall
 };
@@ -30,14 +34,17 @@ struct Node {
 /// Buffers of a step. Rows of elements: the part of local node i of the active element in slot s is at s · row + i.
 template <int Dim>
 struct Buffers {
-  std::vector<std::uint8_t> inside;   ///< of each slot: are all elements around it active, too?
-  std::vector<double> weight;         ///< of each slot: w of its quadrature
-  std::vector<Vec<Dim>> shift;        ///< rows: s_i of its quadrature
-  std::vector<double> sums;           ///< rows: transfer::node_sums numbers for each local node
-  std::vector<double> momentum;       ///< rows: Dim numbers for each local node
-  std::vector<Node<Dim>> node;        ///< of every node of the mesh; valid for active ones
-  std::vector<Strains<Dim>> strains;  ///< of each thread
-  std::vector<StepBooks<Dim>> books;  ///< of each chunk
+  std::vector<std::uint8_t> inside;  ///< of each slot: are all elements around it active, too?
+  std::vector<double> weight;        ///< of each slot: w of its quadrature
+  std::vector<Vec<Dim>> shift;       ///< rows: s_i of its quadrature
+  std::vector<double> sums;          ///< rows: transfer::node_sums numbers for each local node
+  std::vector<double> momentum;      ///< rows: Dim numbers for each local node
+  // Of every node of the mesh, valid for active ones:
+  std::vector<Node<Dim>> node;
+  std::vector<Vec<Dim>> v_next;             ///< v^t + a dt with its conditions, for the PIC share; where there is one
+  std::vector<Resistance<Dim>> resistance;  ///< with damping, and where nodes are not free
+  std::vector<Strains<Dim>> strains;        ///< of each thread
+  std::vector<StepBooks<Dim>> books;        ///< of each chunk
 };
 
 /// Soil on its background mesh. The mesh is held by pointer, so that it stays where the locator saw it.

@@ -1,5 +1,6 @@
 // Steps 1, 4 to 11 element by element.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "scarp/exec/parallel.hpp"
@@ -60,9 +61,9 @@ void update_element(Body<Basis::dim>& body, double dt, double flip, int slot, in
   for (int i = 0; i < Basis::nodes; ++i) {
     const auto& node = body.buffers.node[n[i]];
     motion.a[i] = node.a;
-    motion.v[i] = node.v_next;
+    if (flip != 1) motion.v[i] = body.buffers.v_next[n[i]];
   }
-  alignas(64) std::array<double, transfer::whole_batches<PointBatch<Dim>>(Basis::nodes * Dim)> momentum{};
+  alignas(64) std::array<double, whole_batches<PointBatch<Dim>>(Basis::nodes * Dim)> momentum{};
   for (auto& block : body.blocks) {
     transfer::update_velocities<Basis>(cell, motion, dt, flip, block.points, points_of(block, slot), momentum.data(),
                                        sums);
@@ -81,25 +82,36 @@ void book(const transfer::MotionSums<Dim>& sums, StepBooks<Dim>& books) {
   books.max_velocity = std::sqrt(fastest2);
 }
 
+/// Which of a few points, at x now, are still in their element, as bits of lanes; the local coordinates of these are
+/// kept where the basis stores them.
+template <class Basis, class T>
+unsigned still_inside(const typename Basis::Cell& cell, const Lanes<T>& p, const std::array<T, Basis::dim>& x,
+                      double tolerance, Points<Basis::dim>& points) {
+  const unsigned present = first_bits(p.count());
+  if constexpr (Basis::stores_local) {
+    std::array<T, Basis::dim> xi;
+    for (int j = 0; j < Basis::dim; ++j) xi[j] = p.load(points.xi[j]);
+    const auto found = cell.follow(x, xi, [&](const auto& good) { return (bits_of(good) & present) == present; });
+    for (int j = 0; j < Basis::dim; ++j) p.store(xi[j], points.xi[j]);  // those not inside get theirs later
+    return bits_of(found && cell.inside(xi, tolerance)) & present;
+  } else {
+    return bits_of(cell.inside(cell.local(x), tolerance)) & present;
+  }
+}
+
 /// Step 11 for a few points that were in element e: most still are.
 template <class Basis, class T>
 void find_elements(const Locator<Basis::dim>& locator, const typename Basis::Cell& cell, int e, const Lanes<T>& p,
                    const std::array<T, Basis::dim>& x, Points<Basis::dim>& points, StepBooks<Basis::dim>& books) {
-  unsigned outside = first_bits(p.count());
-  if constexpr (!Basis::stores_local) {
-    outside &= ~bits_of(cell.inside(cell.local(x), locator.tolerance()));
-    books.search.own += p.count();
-    books.search.elements_examined += p.count();
-    books.search.most_examined = std::max<std::int64_t>(books.search.most_examined, 1);
-    if (outside == 0) [[likely]]
-      return;
-  }
+  const unsigned inside = still_inside<Basis>(cell, p, x, locator.tolerance(), points);
+  const int count = std::popcount(inside);
+  books.search.own += count;
+  books.search.elements_examined += count;
+  books.search.most_examined = std::max<std::int64_t>(books.search.most_examined, 1);
+  if (count == p.count()) [[likely]]
+    return;
   for (int l = 0; l < p.count(); ++l) {
-    if (!(outside >> l & 1u)) continue;
-    if constexpr (!Basis::stores_local) {
-      --books.search.own;
-      --books.search.elements_examined;
-    }
+    if (inside >> l & 1u) continue;
     const int i = p.point(l);
     Vec<Basis::dim> at;
     for (int j = 0; j < Basis::dim; ++j) at[j] = points.x[j][i];

@@ -34,40 +34,57 @@ std::array<double, transfer::node_sums<Dim>> assembled(const Body<Dim>& body, in
 
 /// Step 3: a_n = (F_grav − F_int) / m_n (eq. 5) with local damping against the motion, and the conditions.
 template <int Dim>
-Node<Dim> accelerated(const Body<Dim>& body, int n, const double* sum, double dt, double damping) {
-  Node<Dim> node;
+void accelerate(Body<Dim>& body, int n, const double* sum, double dt, const StepSettings& settings) {
+  Node<Dim>& node = body.buffers.node[n];
   node.m = sum[0];
+  node.held = 0;
   const double *p = sum + 1, *F_int = p + Dim;
   const double per_mass = 1 / node.m;
+  const bool free = is_free(body.conditions, n);
+  Resistance<Dim> resistance;
   for (int j = 0; j < Dim; ++j) {
     const double F = node.m * body.gravity[j] - F_int[j];
     node.v[j] = p[j] * per_mass;
-    if (damping != 0 && node.v[j] != 0) node.F_damping[j] = -std::copysign(damping * std::abs(F), node.v[j]);
-    node.a[j] = (F + node.F_damping[j]) * per_mass;
-    node.v_next[j] = node.v[j] + node.a[j] * dt;
+    if (node.v[j] != 0) resistance.F_damping[j] = -std::copysign(settings.damping * std::abs(F), node.v[j]);
+    node.a[j] = (F + resistance.F_damping[j]) * per_mass;
   }
-  if (is_free(body.conditions, n)) return node;
-  const auto reaction = constrain_acceleration<Dim>(body.conditions, n, node.m, node.v, dt, node.a);
-  node.F_friction = reaction.friction;
-  node.held = reaction.held;
-  for (int j = 0; j < Dim; ++j) {
-    node.v_next[j] = node.v[j] + node.a[j] * dt;
-    if (node.held & (1u << j)) node.F_damping[j] = 0;
+  if (!free) {
+    const auto reaction = constrain_acceleration<Dim>(body.conditions, n, node.m, node.v, dt, node.a);
+    node.held = reaction.held;
+    resistance.F_friction = reaction.friction;
+    for (int j = 0; j < Dim; ++j) {
+      if (node.held & (1u << j)) resistance.F_damping[j] = 0;
+    }
   }
-  constrain_velocity<Dim>(body.conditions, n, node.held, node.v_next);
-  return node;
+  if (!free || settings.damping != 0) body.buffers.resistance[n] = resistance;
+  if (settings.flip == 1) return;
+  Vec<Dim>& v_next = body.buffers.v_next[n];
+  for (int j = 0; j < Dim; ++j) v_next[j] = node.v[j] + node.a[j] * dt;
+  if (!free) constrain_velocity<Dim>(body.conditions, n, node.held, v_next);
+}
+
+/// The resistance that accelerate() has left; none where it left none.
+template <int Dim>
+Resistance<Dim> resistance_at(const Body<Dim>& body, int n, double damping) {
+  return damping != 0 || !is_free(body.conditions, n) ? body.buffers.resistance[n] : Resistance<Dim>{};
 }
 
 }  // namespace
 
 template <int Dim>
-void accelerate_nodes(Body<Dim>& body, double dt, double damping, StepBooks<Dim>& books) {
+void accelerate_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
   for_each_node(body, books, [&](int k, int n, StepBooks<Dim>& part) {
     const auto sum = assembled(body, k);
     Node<Dim>& node = body.buffers.node[n];
-    node = sum[0] < body.least_mass ? Node<Dim>{} : accelerated(body, n, sum.data(), dt, damping);
+    if (sum[0] < body.least_mass) {
+      node = {};
+      body.buffers.v_next[n] = {};
+      return;
+    }
+    accelerate(body, n, sum.data(), dt, settings);
+    const auto resistance = resistance_at(body, n, settings.damping);
     for (int j = 0; j < Dim; ++j) {
-      if (!(node.held & (1u << j))) part.unbalanced_force += std::abs(node.m * node.a[j] - node.F_damping[j]);
+      if (!(node.held & (1u << j))) part.unbalanced_force += std::abs(node.m * node.a[j] - resistance.F_damping[j]);
       part.weight += std::abs(node.m * body.gravity[j]);
     }
   });
@@ -76,7 +93,7 @@ void accelerate_nodes(Body<Dim>& body, double dt, double damping, StepBooks<Dim>
 /// Forces at nodes work on ½ (v^t + v^{t+dt}): with that the change of the points' kinetic energy is theirs to the last
 /// bit. Gravity works on the points' displacements: Σ m_p du_p = Σ m_n v_n dt.
 template <int Dim>
-void velocities_of_nodes(Body<Dim>& body, double dt, StepBooks<Dim>& books) {
+void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
   for_each_node(body, books, [&](int k, int n, StepBooks<Dim>& part) {
     Node<Dim>& node = body.buffers.node[n];
     if (node.m < body.least_mass) return;
@@ -85,10 +102,11 @@ void velocities_of_nodes(Body<Dim>& body, double dt, StepBooks<Dim>& books) {
       for (int j = 0; j < Dim; ++j) p[j] += body.buffers.momentum[static_cast<std::size_t>(place) * Dim + j];
     });
     const double per_mass = 1 / node.m;
+    const auto resistance = resistance_at(body, n, settings.damping);
     for (int j = 0; j < Dim; ++j) {
       const double v = p[j] * per_mass, path = 0.5 * (node.v[j] + v) * dt;
-      part.dissipation_damping -= node.F_damping[j] * path;
-      part.dissipation_friction -= node.F_friction[j] * path;
+      part.dissipation_damping -= resistance.F_damping[j] * path;
+      part.dissipation_friction -= resistance.F_friction[j] * path;
       node.v[j] = v;
     }
     if (!is_free(body.conditions, n)) constrain_velocity<Dim>(body.conditions, n, node.held, node.v);
@@ -96,9 +114,9 @@ void velocities_of_nodes(Body<Dim>& body, double dt, StepBooks<Dim>& books) {
   });
 }
 
-template void accelerate_nodes<2>(Body<2>&, double, double, StepBooks<2>&);
-template void accelerate_nodes<3>(Body<3>&, double, double, StepBooks<3>&);
-template void velocities_of_nodes<2>(Body<2>&, double, StepBooks<2>&);
-template void velocities_of_nodes<3>(Body<3>&, double, StepBooks<3>&);
+template void accelerate_nodes<2>(Body<2>&, double, const StepSettings&, StepBooks<2>&);
+template void accelerate_nodes<3>(Body<3>&, double, const StepSettings&, StepBooks<3>&);
+template void velocities_of_nodes<2>(Body<2>&, double, const StepSettings&, StepBooks<2>&);
+template void velocities_of_nodes<3>(Body<3>&, double, const StepSettings&, StepBooks<3>&);
 
 }  // namespace scarp::step

@@ -11,7 +11,7 @@ void map_points_to_elements(Body<Dim>& body, Quadrature choice, StepBooks<Dim>& 
 
 /// Steps 2 and 3 for all active nodes: their sums, acceleration and conditions.
 template <int Dim>
-void accelerate_nodes(Body<Dim>& body, double dt, double damping, StepBooks<Dim>& books);
+void accelerate_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books);
 
 /// Steps 4 and 5: velocities of the points, then their momentum again for the local nodes.
 template <int Dim>
@@ -19,7 +19,7 @@ void update_velocities(Body<Dim>& body, double dt, double flip, StepBooks<Dim>& 
 
 /// Step 5, end: v_n^{t+dt} = p_n / m_n (eq. 8) with the conditions.
 template <int Dim>
-void velocities_of_nodes(Body<Dim>& body, double dt, StepBooks<Dim>& books);
+void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books);
 
 /// Steps 6 to 11 for the points of one chunk of elements after the other, so that what one step hands to the next stays
 /// in the cache.

@@ -104,9 +104,9 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
   };
   prepare_threads(body);
   timed(Phase::points_to_nodes, [&] { step::map_points_to_elements(body, settings.quadrature, books); });  // 1, eqs 1–4
-  timed(Phase::nodes, [&] { step::accelerate_nodes(body, dt, settings.damping, books); });     // 2 and 3, eq. 5
+  timed(Phase::nodes, [&] { step::accelerate_nodes(body, dt, settings, books); });             // 2 and 3, eq. 5
   timed(Phase::velocities, [&] { step::update_velocities(body, dt, settings.flip, books); });  // 4 and 5, eqs 6 and 7
-  timed(Phase::nodes, [&] { step::velocities_of_nodes(body, dt, books); });                    // 5, eq. 8
+  timed(Phase::nodes, [&] { step::velocities_of_nodes(body, dt, settings, books); });          // 5, eq. 8
   step::strain_stress_and_motion(body, dt, settings, books);          // 6 to 11, eqs 9–19 and section 3
   timed(Phase::order, [&] { order_points(body, settings, books); });  // 11
   return books;

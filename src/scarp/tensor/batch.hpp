@@ -1,6 +1,7 @@
 // A SIMD batch of doubles: the scalar that laws and mappings run on in the material point method.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <xsimd/xsimd.hpp>
 
@@ -79,6 +80,21 @@ inline unsigned bits_of(const M& mask) {
 /// The bits of the first `count` lanes.
 inline constexpr unsigned first_bits(int count) {
   return (1u << count) - 1u;
+}
+
+/// Adds the sum over the lanes of values[i] to out[i], for each i; out has room for whole batches.
+template <class T, std::size_t n>
+inline void add_lanes(std::array<T, n>& values, double* out) {
+  constexpr std::size_t W = T::size;
+  static_assert(n % W == 0);
+  for (std::size_t i = 0; i < n; i += W)
+    (xsimd::haddp(values.data() + i) + T::load_unaligned(out + i)).store_unaligned(out + i);
+}
+
+/// n rounded up to whole batches.
+template <class T>
+constexpr std::size_t whole_batches(int n) {
+  return (static_cast<std::size_t>(n) + T::size - 1) / T::size * T::size;
 }
 
 }  // namespace scarp

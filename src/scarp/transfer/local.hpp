@@ -25,19 +25,4 @@ constexpr int mandel(int j, int k) {
   return j == k ? j : j + k == 1 ? 3 : j + k == 3 ? 4 : 5;
 }
 
-/// Adds the sum over the lanes of values[i] to out[i], for each i; out has room for whole batches.
-template <class T, std::size_t n>
-inline void add_lanes(std::array<T, n>& values, double* out) {
-  constexpr std::size_t W = T::size;
-  static_assert(n % W == 0);
-  for (std::size_t i = 0; i < n; i += W)
-    (xsimd::haddp(values.data() + i) + T::load_unaligned(out + i)).store_unaligned(out + i);
-}
-
-/// n rounded up to whole batches.
-template <class T>
-constexpr std::size_t whole_batches(int n) {
-  return (static_cast<std::size_t>(n) + T::size - 1) / T::size * T::size;
-}
-
 }  // namespace scarp::transfer
