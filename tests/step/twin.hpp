@@ -64,6 +64,7 @@ class Twin {
           p[n][j] += point.m * point.v[j] * at_[k].N[i];
           for (int l = 0; l < Dim; ++l) F[n][j] += at_[k].B[i][l] * stress(point, l, j) * at_[k].w * point.Omega;
         }
+        F[n][0] += at_[k].hoop[i] * stress(point, 2, 2) * at_[k].w * point.Omega;
       }
     }
     // Step 3 (eq. 5).
@@ -105,7 +106,7 @@ class Twin {
     // Steps 6 to 11 (eqs 9–19).
     for (std::size_t k = 0; k < points.size(); ++k) {
       Point& point = points[k];
-      double L[Dim][Dim] = {};
+      double L[3][3] = {};
       for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
         const auto& v_i = v_end[at_[k].node[i]];
         for (int j = 0; j < Dim; ++j) {
@@ -113,6 +114,7 @@ class Twin {
           point.x[j] += v_i[j] * dt * at_[k].N[i];
           work_gravity += point.m * body_.gravity[j] * v_i[j] * dt * at_[k].N[i];
         }
+        if (body_.mesh->axisymmetric) L[2][2] += v_i[0] * at_[k].hoop[i];
       }
       update_stress(point.state, L, dt, settings.integration);
       point.Omega *= stretch(L, dt);
@@ -121,11 +123,12 @@ class Twin {
   }
 
  private:
-  /// A point's local nodes with N_i and B̂_i, and the weight w of its volume.
+  /// A point's local nodes with N_i, B̂_i and, in a body of revolution, N_i / r, and the weight w of its volume.
   struct AtPoint {
     std::vector<int> node;
     std::vector<double> N;
     std::vector<Vec<Dim>> B;
+    std::vector<double> hoop;
     double w = 1;
   };
 
@@ -134,10 +137,10 @@ class Twin {
     return j == k ? -point.state.sigma[j] : -point.state.sigma[shear[j][k]] / std::sqrt(2.0);
   }
 
-  static double stretch(const double (&L)[Dim][Dim], double dt) {
+  static double stretch(const double (&L)[3][3], double dt) {
     double f[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    for (int j = 0; j < Dim; ++j) {
-      for (int k = 0; k < Dim; ++k) f[j][k] += L[j][k] * dt;
+    for (int j = 0; j < 3; ++j) {
+      for (int k = 0; k < 3; ++k) f[j][k] += L[j][k] * dt;
     }
     double det = 0;
     for (int k = 0; k < 3; ++k) {
@@ -146,10 +149,10 @@ class Twin {
     return det;
   }
 
-  void update_stress(State& s, const double (&L)[Dim][Dim], double dt, const IntegrationSettings& settings) const {
+  void update_stress(State& s, const double (&L)[3][3], double dt, const IntegrationSettings& settings) const {
     Sym<double, N> deps = Sym<double, N>::zero();
     Spin<double, N> spin;
-    for (int j = 0; j < Dim; ++j) deps[j] = -L[j][j] * dt;
+    for (int j = 0; j < 3; ++j) deps[j] = -L[j][j] * dt;
     const int pairs[3][2] = {{0, 1}, {1, 2}, {2, 0}};
     for (int c = 0; c < (Dim == 2 ? 1 : 3); ++c) {
       const auto [j, k] = pairs[c];
@@ -194,7 +197,8 @@ class Twin {
         std::array<Vec<Dim>, Shape::nodes> B;
         gradients<Shape>(x_i, Shape::local_coordinates(x_i, points[k].x), N_i, B);
         const auto nodes = mesh.element_nodes(e);
-        at_[k] = {{nodes.begin(), nodes.end()}, {N_i.begin(), N_i.end()}, {B.begin(), B.end()}};
+        at_[k] = {{nodes.begin(), nodes.end()}, {N_i.begin(), N_i.end()}, {B.begin(), B.end()}, {}};
+        for (const double share : N_i) at_[k].hoop.push_back(mesh.axisymmetric ? share / points[k].x[0] : 0.0);
       });
     }
     if (!corrected) return;
@@ -211,17 +215,26 @@ class Twin {
     const auto x_i = node_positions<Shape>(*body_.mesh, e);
     double V = 0, filled = 0;
     std::array<Vec<Dim>, Shape::nodes> exact{}, mean{};
+    std::array<double, Shape::nodes> exact_hoop{}, mean_hoop{};
+    const bool axisymmetric = body_.mesh->axisymmetric;
     const auto add = [&](const Vec<Dim>& xi, double weight) {
       std::array<double, Shape::nodes> N_i;
       std::array<Vec<Dim>, Shape::nodes> B;
-      const double dV = weight * gradients<Shape>(x_i, xi, N_i, B);
+      double r = 0, dV = weight * gradients<Shape>(x_i, xi, N_i, B);
+      for (int i = 0; i < Shape::nodes; ++i) {
+        r += N_i[i] * x_i[i][0];
+        exact_hoop[i] += N_i[i] * dV;
+      }
+      if (axisymmetric) dV *= r;
       V += dV;
       for (int i = 0; i < Shape::nodes; ++i) {
         for (int j = 0; j < Dim; ++j) exact[i][j] += B[i][j] * dV;
       }
     };
     if constexpr (Shape::nodes == Dim + 1) {
-      add({}, Dim == 2 ? 0.5 : 1.0 / 6);
+      Vec<Dim> centre;
+      centre.fill(1.0 / (Dim + 1));
+      add(centre, Dim == 2 ? 0.5 : 1.0 / 6);
     } else {
       // Three Gauss points along each axis: one more than it takes.
       const double place[3] = {-std::sqrt(0.6), 0, std::sqrt(0.6)}, weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
@@ -240,6 +253,7 @@ class Twin {
       filled += points[k].Omega;
       for (int i = 0; i < Shape::nodes; ++i) {
         for (int j = 0; j < Dim; ++j) mean[i][j] += points[k].Omega * at_[k].B[i][j];
+        mean_hoop[i] += points[k].Omega * at_[k].hoop[i];
       }
     }
     if (!(filled > 0.5 * V && filled < 2 * V)) return;
@@ -247,6 +261,7 @@ class Twin {
       at_[k].w = V / filled;
       for (int i = 0; i < Shape::nodes; ++i) {
         for (int j = 0; j < Dim; ++j) at_[k].B[i][j] += exact[i][j] / V - mean[i][j] / filled;
+        if (axisymmetric) at_[k].hoop[i] += exact_hoop[i] / V - mean_hoop[i] / filled;
       }
     }
   }

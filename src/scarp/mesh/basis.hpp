@@ -8,6 +8,7 @@
 //     shape(local, N)        N_i
 //     gradients(local, N, B) N_i and B_i = dN_i/dx
 //     integrals(V, g)        the element's volume V and g_i = ∫ B_i dV over it
+//     for_gauss(f)           f(local, dV) for points that integrate products of two N_i and of N_i B_j exactly
 // all on T: double, or a SIMD batch with a point in each lane.
 #pragma once
 
@@ -34,6 +35,15 @@ namespace detail {
 /// above.
 constexpr bool far_side(int i, int d) {
   return d == 0 ? (i & 3) == 1 || (i & 3) == 2 : d == 1 ? (i & 2) != 0 : i >= 4;
+}
+
+/// Two Gauss points along each axis of the unit box, of weight 2^−Dim each: exact to the third degree along each axis.
+inline constexpr double gauss_of_unit[2] = {0.21132486540518711775, 0.78867513459481288225};
+template <int Dim>
+constexpr Vec<Dim> gauss_of_box(int q) {
+  Vec<Dim> s;
+  for (int d = 0; d < Dim; ++d) s[d] = gauss_of_unit[far_side(q, d)];
+  return s;
 }
 
 /// Products of 1 − s and s on the unit box.
@@ -138,6 +148,13 @@ struct GridLinear {
       }
     }
 
+    template <class F>
+    void for_gauss(F&& f) const {
+      double dV = 1.0 / nodes;
+      for (int d = 0; d < Dim; ++d) dV *= spacing_[d];
+      for (int q = 0; q < nodes; ++q) f(detail::gauss_of_box<Dim>(q), dV);
+    }
+
    private:
     Vec<Dim> low_, spacing_, inverse_;
   };
@@ -218,6 +235,18 @@ struct Simplex {
       }
     }
 
+    /// The middles of the edges, exact for quadratics (Dim = 2), or four points inside, as exact (Dim = 3).
+    template <class F>
+    void for_gauss(F&& f) const {
+      constexpr double a = Dim == 2 ? 0.5 : 0.13819660112501051518, b = Dim == 2 ? 0.0 : 0.58541019662496845446;
+      for (int q = 0; q < nodes; ++q) {
+        Vec<Dim> xi;
+        xi.fill(a);
+        if (q > 0) xi[q - 1] = b;
+        f(xi, det_ / ((Dim == 2 ? 2 : 6) * nodes));
+      }
+    }
+
    private:
     Vec<Dim> low_;
     double det_;
@@ -292,14 +321,13 @@ struct Box {
       // point in each lane.
       using T = PointBatch<Dim>;
       constexpr int W = lanes_of<T>;
-      constexpr double gauss[2] = {0.21132486540518711775, 0.78867513459481288225};
       constexpr std::size_t numbers = whole_batches<T>(1 + nodes * Dim);
       alignas(64) std::array<double, numbers> sums{};
       for (int first = 0; first < nodes; first += W) {
         std::array<T, Dim> s;
         for (int d = 0; d < Dim; ++d) {
           double lanes[W];
-          for (int l = 0; l < W; ++l) lanes[l] = gauss[far_side(first + l, d)];
+          for (int l = 0; l < W; ++l) lanes[l] = gauss_of_unit[far_side(first + l, d)];
           s[d] = T::load_unaligned(lanes);
         }
         std::array<std::array<T, Dim>, nodes> B;
@@ -315,6 +343,17 @@ struct Box {
       V = sums[0];
       for (int i = 0; i < nodes; ++i) {
         for (int j = 0; j < Dim; ++j) g[i][j] = sums[1 + i * Dim + j];
+      }
+    }
+
+    template <class F>
+    void for_gauss(F&& f) const {
+      for (int q = 0; q < nodes; ++q) {
+        const Vec<Dim> s = gauss_of_box<Dim>(q);
+        std::array<Vec<Dim>, nodes> B;
+        Vec<Dim> xi;
+        for (int d = 0; d < Dim; ++d) xi[d] = 2 * s[d] - 1;
+        f(xi, jacobian_and_gradients(s, B) / nodes);
       }
     }
 
@@ -372,17 +411,10 @@ struct Linear<T4> : detail::Simplex<3> {};
 template <>
 struct Linear<H8> : detail::Box<3> {};
 
-/// f(basis, slot) for slots first ... last - 1 of a list of elements.
-template <int Dim, class F>
-inline void with_basis(const Mesh<Dim>& mesh, const int* elements, int first, int last, F&& f) {
-  if (mesh.grid) {
-    for (int slot = first; slot < last; ++slot) f(GridLinear<Dim>{}, slot, elements[slot]);
-    return;
-  }
-  for (int slot = first; slot < last; ++slot) {
-    const int e = elements[slot];
-    with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) { f(Linear<Shape>{}, slot, e); });
-  }
-}
+/// Does the basis describe the meridian plane of a body of revolution (mesh/axisymmetric.hpp)?
+template <class B>
+inline constexpr bool is_axisymmetric = requires {
+  B::axisymmetric;
+};
 
 }  // namespace scarp
