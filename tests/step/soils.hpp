@@ -39,6 +39,12 @@ inline Mesh<3> solid_mesh(Background kind, int n) {
                                                    : Solid::mixed);
 }
 
+/// The same mesh as the meridian plane of a body of revolution.
+inline Mesh<2> revolved(Mesh<2> mesh) {
+  mesh.axisymmetric = true;
+  return mesh;
+}
+
 inline AnyModel elastic() {
   return LinearElastic({1000.0, 0.3});
 }
@@ -83,7 +89,8 @@ Body<Dim> soil(Mesh<Dim> mesh, const AnyModel& model, int along, double speed) {
       x[j] = 0.2 + step * (rest % along + 0.5 + shake(random));
       rest /= along;
     }
-    points.volume[i] = points.initial_volume[i] = std::pow(step, Dim) * (1 + 0.1 * shake(random));
+    const double depth = body.mesh->axisymmetric ? x[0] : 1;
+    points.volume[i] = points.initial_volume[i] = std::pow(step, Dim) * (1 + 0.1 * shake(random)) * depth;
     points.mass[i] = 1.8 * points.volume[i];
     points.id[i] = i;
     for (int j = 0; j < Dim; ++j) {

@@ -65,6 +65,15 @@ inline void products(const std::array<std::array<T, Each>, Dim>& f, const std::a
   }
 }
 
+/// f(local, dV) for the Gauss points of a cell, from one over its edges.
+template <std::size_t Dim, class F>
+inline void for_gauss_of_box(const std::array<double, Dim>& inverse, F&& f) {
+  constexpr int points = 1 << Dim;
+  double dV = 1.0 / points;
+  for (const double per_edge : inverse) dV /= per_edge;
+  for (int q = 0; q < points; ++q) f(gauss_of_box<static_cast<int>(Dim)>(q), dV);
+}
+
 /// Where a cell of a grid is.
 template <int Dim>
 struct GridCell {
@@ -136,6 +145,11 @@ struct GridLinear {
       }
     }
 
+    template <class F>
+    void for_gauss(F&& f) const {
+      detail::for_gauss_of_box(inverse_, f);
+    }
+
    private:
     Vec<Dim> low_, spacing_, inverse_;
   };
@@ -202,6 +216,11 @@ struct GridSpline {
       for (auto& g_i : g) {
         for (double& component : g_i) component *= V;
       }
+    }
+
+    template <class F>
+    void for_gauss(F&& f) const {
+      detail::for_gauss_of_box(cell_.inverse, f);
     }
 
    private:

@@ -95,6 +95,8 @@ struct Mesh {
   std::vector<int> around;          ///< ... ascending. Both empty in a grid, where they follow from the index
   std::map<std::string, std::vector<int>> node_sets;  ///< ascending; the sides (add_side_sets) and named groups
   std::optional<Grid<Dim>> grid;                      ///< set when the mesh is a structured grid
+  bool axisymmetric = false;  ///< the plane is the meridian plane of a body of revolution: x is the distance from its
+                              ///< vertical axis, and volumes, masses and forces are those of one radian
 
   int element_count() const { return static_cast<int>(types.size()); }
   int node_count() const { return static_cast<int>(nodes.size()); }

@@ -41,6 +41,7 @@ void make_room(Body<Dim>& body) {
   buffers.inside.reserve(elements);
   buffers.weight.reserve(elements);
   buffers.shift.reserve(places);
+  if (body.mesh->axisymmetric) buffers.hoop_shift.reserve(places);
   buffers.sums.reserve(places * transfer::node_sums<Dim>);
   buffers.momentum.reserve(places * Dim);
   buffers.books.reserve(places / element_chunk + 1);
@@ -97,6 +98,7 @@ void rebuild(Body<Dim>& body) {
   }
   buffers.weight.assign(slots, 1.0);
   buffers.shift.resize(places);
+  if (body.mesh->axisymmetric) buffers.hoop_shift.resize(places);
   buffers.sums.resize(places * transfer::node_sums<Dim>);
   buffers.momentum.resize(places * Dim);
   buffers.node.resize(body.mesh->nodes.size());

@@ -37,6 +37,7 @@ struct Buffers {
   std::vector<std::uint8_t> inside;  ///< of each slot: are all elements around it active, too?
   std::vector<double> weight;        ///< of each slot: w of its quadrature
   std::vector<Vec<Dim>> shift;       ///< rows: s_i of its quadrature
+  std::vector<double> hoop_shift;    ///< rows, in a body of revolution: the same of N_i / r
   std::vector<double> sums;          ///< rows: transfer::node_sums numbers for each local node
   std::vector<double> momentum;      ///< rows: Dim numbers for each local node
   // Of every node of the mesh, valid for active ones:

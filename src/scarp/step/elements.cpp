@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scarp/exec/parallel.hpp"
+#include "scarp/mesh/with_basis.hpp"
 #include "scarp/step/phases.hpp"
 #include "scarp/transfer/transfer.hpp"
 
@@ -40,16 +41,19 @@ void sum_points(Body<Basis::dim>& body, Quadrature choice, int slot, int e) {
   for (const auto& block : body.blocks) {
     transfer::points_to_nodes<Basis>(cell, block.points, points_of(block, slot), sums);
   }
-  transfer::Quadrature<Dim, Basis::nodes> quadrature;
+  transfer::Quadrature<Basis> quadrature;
   if constexpr (Basis::corrects) {
     if (choice == Quadrature::corrected && body.buffers.inside[slot]) {
-      quadrature = transfer::full_element<Basis>(cell, sums.volume(), sums.gradient());
+      quadrature = transfer::full_element<Basis>(cell, sums.volume(), sums.gradient(), sums.hoop());
       transfer::correct<Basis>(sums, quadrature);
     }
   }
   const auto row = row_of(body, slot);
   body.buffers.weight[slot] = quadrature.weight;
   std::copy_n(quadrature.shift.data(), Basis::nodes, body.buffers.shift.data() + row);
+  if constexpr (is_axisymmetric<Basis>) {
+    std::copy_n(quadrature.hoop_shift.data(), Basis::nodes, body.buffers.hoop_shift.data() + row);
+  }
   std::copy_n(sums.node.data(), Basis::nodes * Q, body.buffers.sums.data() + row * Q);
 }
 
@@ -132,8 +136,12 @@ void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, do
   for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
     const typename Basis::Cell cell(*body.mesh, e);
     const auto n = body.mesh->element_nodes(e);
-    transfer::Quadrature<Dim, Basis::nodes> quadrature{body.buffers.weight[slot], {}};
+    transfer::Quadrature<Basis> quadrature;
+    quadrature.weight = body.buffers.weight[slot];
     std::copy_n(body.buffers.shift.data() + row_of(body, slot), Basis::nodes, quadrature.shift.data());
+    if constexpr (is_axisymmetric<Basis>) {
+      std::copy_n(body.buffers.hoop_shift.data() + row_of(body, slot), Basis::nodes, quadrature.hoop_shift.data());
+    }
     std::array<Vec<Dim>, Basis::nodes> du_i;
     for (int i = 0; i < Basis::nodes; ++i) {
       for (int j = 0; j < Dim; ++j) du_i[i][j] = body.buffers.node[n[i]].v[j] * dt;

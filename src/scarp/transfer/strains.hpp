@@ -44,12 +44,13 @@ inline T determinant_of_stretch(const std::array<std::array<T, 3>, 3>& L) {
          L[0][2] * (L[1][0] * L[2][1] - y * L[2][0]);
 }
 
-/// Strain and spin increments (eqs 10, 11) of L dt to the places `at` on. Whole batches are written: what comes behind
-/// the last point of an element is overwritten by the next.
+/// Strain and spin increments (eqs 10, 11) of L dt to the places `at` on; in the plane `hoop` is that of the
+/// circumference, zero in plane strain. Whole batches are written: what comes behind the last point of an element is
+/// overwritten by the next.
 template <int Dim, class T>
-inline void store_strains(const std::array<std::array<T, Dim>, Dim>& L, Strains<Dim>& strains, int at) {
+inline void store_strains(const std::array<std::array<T, Dim>, Dim>& L, const T& hoop, Strains<Dim>& strains, int at) {
   for (int j = 0; j < Dim; ++j) L[j][j].store_unaligned(strains.deps[j].data() + at);
-  if constexpr (Dim == 2) T(0.0).store_unaligned(strains.deps[2].data() + at);
+  if constexpr (Dim == 2) hoop.store_unaligned(strains.deps[2].data() + at);
   for (int l = 0; l < spin_size<Dim>; ++l) {  // xy, yz, zx
     const int j = l, k = (l + 1) % Dim;
     (T(0.5 * sqrt2) * (L[j][k] + L[k][j])).store_unaligned(strains.deps[3 + l].data() + at);

@@ -22,10 +22,13 @@ struct ElementSums {
   using T = PointBatch<dim>;
 
   static constexpr std::size_t node_size = whole_batches<T>(nodes * node_sums<dim>);
-  static constexpr std::size_t integral_size = whole_batches<T>(1 + nodes * dim + stresses);
+  static constexpr int plane_integrals = 1 + nodes * dim + stresses;
+  static constexpr std::size_t integral_size =
+      whole_batches<T>(plane_integrals + (is_axisymmetric<Basis> ? 1 + nodes : 0));
 
   alignas(64) std::array<double, node_size> node{};
-  alignas(64) std::array<double, integral_size> integral{};  ///< Σ Ω_p, Σ Ω_p B_i, Σ Ω_p σ_p
+  alignas(
+      64) std::array<double, integral_size> integral{};  ///< Σ Ω_p, Σ Ω_p B_i, Σ Ω_p σ_p (, Σ Ω_p σ_θθ, Σ Ω_p N_i / r)
 
   double volume() const { return integral[0]; }
   const double* gradient() const { return integral.data() + 1; }
@@ -34,10 +37,13 @@ struct ElementSums {
     const int c = mandel(j, k);
     return integral[1 + nodes * dim + (dim == 2 && c == 3 ? 2 : c)];
   }
+  /// In a body of revolution: Σ Ω_p σ_θθ and Σ Ω_p N_i / r.
+  double hoop_stress() const { return integral[plane_integrals]; }
+  const double* hoop() const { return integral.data() + plane_integrals + 1; }
 };
 
-/// Step 1: m_i += Σ m_p N_i, p_i += Σ m_p v_p N_i, F_i^int += Σ B_iᵀ σ_p Ω_p (eqs 1, 2, 4). Gravity (eq. 3) is uniform,
-/// so F_i^grav = m_i g is formed at the node.
+/// Step 1: m_i += Σ m_p N_i, p_i += Σ m_p v_p N_i, F_i^int += Σ B_iᵀ σ_p Ω_p (eqs 1, 2, 4), and to the radial component
+/// Σ σ_θθ N_i / r Ω_p in a body of revolution. Gravity (eq. 3) is uniform, so F_i^grav = m_i g is formed at the node.
 template <class Basis>
 void points_to_nodes(const typename Basis::Cell& cell, const Points<Basis::dim>& points, PointRange range,
                      ElementSums<Basis>& sums) {
@@ -73,6 +79,16 @@ void points_to_nodes(const typename Basis::Cell& cell, const Points<Basis::dim>&
     int c = 1 + K * Dim;
     for (int j = 0; j < Dim; ++j) integral[c++] = s[j][j];
     for (int l = 0; l < Dim * (Dim - 1) / 2; ++l) integral[c++] = s[(l + 1) % Dim][l];
+    if constexpr (is_axisymmetric<Basis>) {
+      // Lanes without a point lie at no distance from the axis, and take no part.
+      const T r = p.load(points.x[0]), per_r = select(r > T(0.0), T(1.0) / r, T(0.0));
+      integral[c++] = Omega * p.load(points.sigma[2]);
+      for (int i = 0; i < K; ++i) {
+        const T hoop = N[i] * per_r;
+        node[i * Q + 1 + Dim] = fma(hoop, integral[ElementSums<Basis>::plane_integrals], node[i * Q + 1 + Dim]);
+        integral[c++] = Omega * hoop;
+      }
+    }
     for (std::size_t i = K * Q; i < node.size(); ++i) node[i] = T(0.0);
     for (std::size_t i = c; i < integral.size(); ++i) integral[i] = T(0.0);
     add_lanes(node, sums.node.data());
@@ -82,12 +98,15 @@ void points_to_nodes(const typename Basis::Cell& cell, const Points<Basis::dim>&
 
 /// F_i^int of an element whose points are used by a quadrature of w and s_i.
 template <class Basis>
-void correct(ElementSums<Basis>& sums, const Quadrature<Basis::dim, Basis::nodes>& quadrature) {
+void correct(ElementSums<Basis>& sums, const Quadrature<Basis>& quadrature) {
   constexpr int Dim = Basis::dim, Q = node_sums<Dim>;
   for (int i = 0; i < Basis::nodes; ++i) {
     for (int j = 0; j < Dim; ++j) {
       double& F = sums.node[i * Q + 1 + Dim + j];
       for (int k = 0; k < Dim; ++k) F += quadrature.shift[i][k] * sums.stress(k, j);
+      if constexpr (is_axisymmetric<Basis>) {
+        if (j == 0) F += quadrature.hoop_shift[i] * sums.hoop_stress();
+      }
       F *= quadrature.weight;
     }
   }
@@ -149,12 +168,25 @@ void update_velocities(const typename Basis::Cell& cell, const NodeMotion<Basis>
   });
 }
 
+/// Strain increment of the circumference at distance r from the axis: Σ du_i,r (N_i / r + s_i).
+template <class Basis, class T>
+T hoop_strain(const std::array<T, Basis::nodes>& N, const Quadrature<Basis>& quadrature,
+              const std::array<Vec<2>, Basis::nodes>& du_i, const T& r) {
+  T du = N[0] * T(du_i[0][0]);
+  double shifted = du_i[0][0] * quadrature.hoop_shift[0];
+  for (int i = 1; i < Basis::nodes; ++i) {
+    du = fma(N[i], T(du_i[i][0]), du);
+    shifted += du_i[i][0] * quadrature.hoop_shift[i];
+  }
+  return du / r + T(shifted);
+}
+
 /// Steps 6, 8, 9 and 10 from du_i = v_i dt at the local nodes (eqs 8, 16): L dt = Σ du_i ⊗ ∇N_i (eq. 9), strain and
 /// spin increments (eqs 10, 11) to `strains` from place `at` on, volume by det(I + L dt) (eq. 14 in its finite form;
 /// the density of eq. 15 is m_p / Ω_p), and position (eqs 17–19; the displacement is x_p less x_p at the start). Then
 /// moved(cell, lanes, x) for each batch.
 template <class Basis, class F>
-void nodes_to_points(const typename Basis::Cell& cell, const Quadrature<Basis::dim, Basis::nodes>& quadrature,
+void nodes_to_points(const typename Basis::Cell& cell, const Quadrature<Basis>& quadrature,
                      const std::array<Vec<Basis::dim>, Basis::nodes>& du_i, double element_size,
                      Points<Basis::dim>& points, PointRange range, Strains<Basis::dim>& strains, int at, F&& moved) {
   constexpr int Dim = Basis::dim, K = Basis::nodes;
@@ -169,7 +201,8 @@ void nodes_to_points(const typename Basis::Cell& cell, const Quadrature<Basis::d
     cell.gradients(local_coordinates<Basis>(cell, points, p), N, B);
     std::array<T, Dim> x;
     std::array<std::array<T, Dim>, Dim> L;  // L dt
-    T speed2(0.0);
+    T speed2(0.0), hoop(0.0);
+    if constexpr (is_axisymmetric<Basis>) hoop = hoop_strain<Basis>(N, quadrature, du_i, p.load(points.x[0]));
     for (int j = 0; j < Dim; ++j) {
       T du = N[0] * T(du_i[0][j]);
       for (int i = 1; i < K; ++i) du = fma(N[i], T(du_i[i][j]), du);
@@ -182,12 +215,13 @@ void nodes_to_points(const typename Basis::Cell& cell, const Quadrature<Basis::d
       const T v = p.load(points.v[j]);
       speed2 = fma(v, v, speed2);
     }
-    const T Omega_t = p.load(points.volume), Omega = Omega_t * determinant_of_stretch(L);
+    const T Omega_t = p.load(points.volume), Omega = Omega_t * determinant_of_stretch(L) * (T(1.0) + hoop);
     p.store(Omega, points.volume);
     const T m = p.load(points.mass);
-    store_strains<Dim>(L, strains, at + first);
+    store_strains<Dim>(L, hoop, strains, at + first);
     T dilation = L[0][0];
     for (int j = 1; j < Dim; ++j) dilation += L[j][j];
+    if constexpr (is_axisymmetric<Basis>) dilation += hoop;
     const double w = quadrature.weight;
     (T(w) * Omega * (T(1.0) - T(0.5) * dilation)).store_unaligned(strains.volume.data() + at + first);
     (T(w > 1 ? w : 1) * Omega / m).store_unaligned(strains.per_mass.data() + at + first);

@@ -1,6 +1,6 @@
 // Every basis in every element of small meshes: what shape functions must do whatever they are, and those of grids
 // against their definitions (grid_oracles.hpp).
-#include "scarp/mesh/basis.hpp"
+#include "scarp/mesh/with_basis.hpp"
 
 #include <gtest/gtest.h>
 
@@ -258,18 +258,28 @@ void expect_integrals(const Mesh<Dim>& mesh) {
         const typename Basis::Cell cell(mesh, e);
         double V, V_sum = 0;
         std::array<Vec<Dim>, Basis::nodes> g, sum{};
-        cell.integrals(V, g);
-        for_gauss_points(*mesh.grid, e, [&](const Vec<Dim>& x, double w) {
+        std::array<double, Basis::nodes> h{}, hoop_sum{};
+        if constexpr (is_axisymmetric<Basis>) {
+          cell.integrals(V, g, h);
+        } else {
+          cell.integrals(V, g);
+        }
+        for_gauss_points(*mesh.grid, e, [&](const Vec<Dim>& x, double area) {
           std::array<double, Basis::nodes> N;
           std::array<Vec<Dim>, Basis::nodes> B;
           cell.gradients(cell.local(x), N, B);
+          const double w = mesh.axisymmetric ? area * x[0] : area;
           V_sum += w;
-          for (int i = 0; i < Basis::nodes; ++i)
+          for (int i = 0; i < Basis::nodes; ++i) {
             for (int j = 0; j < Dim; ++j) sum[i][j] += w * B[i][j];
+            hoop_sum[i] += is_axisymmetric<Basis> ? area * N[i] : 0.0;
+          }
         });
-        EXPECT_NEAR(V, V_sum, value_band);
-        for (int i = 0; i < Basis::nodes; ++i)
-          for (int j = 0; j < Dim; ++j) EXPECT_NEAR(g[i][j], sum[i][j], value_band);
+        EXPECT_NEAR(V, V_sum, value_band * std::max(1.0, V));
+        for (int i = 0; i < Basis::nodes; ++i) {
+          for (int j = 0; j < Dim; ++j) EXPECT_NEAR(g[i][j], sum[i][j], value_band * std::max(1.0, V));
+          EXPECT_NEAR(h[i], hoop_sum[i], value_band);
+        }
       }
     });
   }
@@ -280,6 +290,16 @@ TEST(Basis, IntegratesItsGradientsOverACell) {
   for (const auto functions : {GridFunctions::linear, GridFunctions::b_spline}) {
     for (const auto& mesh : grids<2>(functions)) expect_integrals(mesh);
     for (const auto& mesh : grids<3>(functions)) expect_integrals(mesh);
+  }
+}
+
+// The same with r dA for the volume, and ∫ N_i dA for the circumference.
+TEST(Basis, IntegratesOverACellOfABodyOfRevolution) {
+  for (const auto functions : {GridFunctions::linear, GridFunctions::b_spline}) {
+    for (auto mesh : grids<2>(functions)) {
+      mesh.axisymmetric = true;
+      expect_integrals(mesh);
+    }
   }
 }
 
