@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string>
 #include <variant>
 #include <vector>
 
@@ -13,10 +12,10 @@
 
 namespace scarp::verification {
 
-/// A body on a grid over low..high (sizes in whole elements) with shape functions of this name; no points yet.
+/// A body on a grid over low..high (sizes in whole elements) with these shape functions; no points yet.
 inline Body<2> on_grid(const Vec<2>& low, const Vec<2>& high, const std::array<int, 2>& elements, const Vec<2>& gravity,
-                       [[maybe_unused]] const std::string& shape = "linear") {
-  return Body<2>(std::make_unique<const Mesh<2>>(make_grid(low, {high[0] - low[0], high[1] - low[1]}, elements)),
+                       GridFunctions shape = GridFunctions::linear) {
+  return Body<2>(std::make_unique<const Mesh<2>>(make_grid(low, {high[0] - low[0], high[1] - low[1]}, elements, shape)),
                  gravity);
 }
 

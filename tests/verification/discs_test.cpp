@@ -26,7 +26,7 @@ Energies energies(const DiscRun& run) {
   return e;
 }
 
-class Discs : public testing::TestWithParam<std::string> {};
+class Discs : public testing::TestWithParam<GridFunctions> {};
 
 TEST_P(Discs, CollisionKeepsMomentumAndFlipEnergy) {
   const auto flip = collide(20, {GetParam()});
@@ -40,7 +40,7 @@ TEST_P(Discs, CollisionKeepsMomentumAndFlipEnergy) {
   EXPECT_GT(e.low, 0.96);
   EXPECT_LT(e.high, 1.03);
   std::printf("colliding discs, %s, FLIP: momentum %.1e, energy %.4f to %.4f, %.4f at the end, kinetic %.4f\n",
-              GetParam().c_str(), flip.momentum, e.low, e.high, e.end,
+              name_of(GetParam()).c_str(), flip.momentum, e.low, e.high, e.end,
               flip.history.back().kinetic / flip.history.front().kinetic);
 }
 
@@ -57,8 +57,8 @@ TEST_P(Discs, PicTakesEnergyAndKeepsMomentum) {
     EXPECT_LT(e.high, 1.01);
     EXPECT_LT(e.end, before);
     before = e.end;
-    std::printf("colliding discs, %s, flip %.2f: energy at the end %.4f, kinetic %.4f\n", GetParam().c_str(), flip,
-                e.end, run.history.back().kinetic / run.history.front().kinetic);
+    std::printf("colliding discs, %s, flip %.2f: energy at the end %.4f, kinetic %.4f\n", name_of(GetParam()).c_str(),
+                flip, e.end, run.history.back().kinetic / run.history.front().kinetic);
   }
   EXPECT_LT(before, 0.7);  // pure PIC
 }
@@ -82,7 +82,7 @@ TEST_P(Discs, TurningDiscKeepsItsAngularMomentumAsTheMeshIsRefined) {
     lost = now;
     const auto e = energies(run);
     std::printf("turning disc, %s, n = %d: angular momentum less %.2e after a turn, energy %.4f to %.4f\n",
-                GetParam().c_str(), n, now, e.low, e.high);
+                name_of(GetParam()).c_str(), n, now, e.low, e.high);
   }
 }
 
@@ -97,8 +97,8 @@ TEST_P(Discs, MotionWithoutStressKeepsAngularMomentumToRoundOff) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Discs, testing::ValuesIn(all_shapes), [](const auto& its) {
-  std::string name = its.param;
-  name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
+  std::string name = name_of(its.param);
+  std::erase(name, '-');
   return name;
 });
 

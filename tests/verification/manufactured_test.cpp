@@ -56,7 +56,7 @@ TEST(Manufactured, LinearFunctionsAtSmallStrain) {
   // middle, by O(h). With eq. 4 as printed an error of the size of the strain (6e-4) remains: volumes grow with ε while
   // points stay in their elements.
   for (const auto quadrature : {Quadrature::corrected, Quadrature::points}) {
-    const auto errors = refine(2e-4, 16, 2, {"linear", quadrature});
+    const auto errors = refine(2e-4, 16, 2, {GridFunctions::linear, quadrature});
     for (const double order : orders(errors.displacement)) EXPECT_GT(order, 1.85);
     for (const double order : orders(errors.stress)) EXPECT_GT(order, 0.95);
     EXPECT_LT(errors.displacement.back(), 1.6e-3);

@@ -38,7 +38,7 @@ TEST(SelfWeight, LinearFunctionsAtRest) {
   // and below the middle, err by ρ g h/4, which is √3/4 h/H of the L2 size of ρ g (H − y), exactly. The mean of an
   // element is exact: what is left of it is the unbalanced force.
   for (const auto quadrature : {Quadrature::corrected, Quadrature::points}) {
-    const auto errors = rest(8, {"linear", quadrature});
+    const auto errors = rest(8, {GridFunctions::linear, quadrature});
     EXPECT_LT(errors.finest.unbalanced, 1e-5);
     for (const double order : orders(errors.stress)) EXPECT_GT(order, 0.98);
     for (const double order : orders(errors.displacement)) EXPECT_GT(order, 1.9);
