@@ -50,7 +50,7 @@ class Studies {
         const auto e = rest ? column.rest() : column.fall();
         row(problem, method, 2, n, "displacement", e.displacement);
         row(problem, method, 2, n, "stress", e.stress);
-        row(problem, method, 2, n, "centre stress", e.centre_stress);
+        row(problem, method, 2, n, "inner stress", e.inner_stress);
         row(problem, method, 2, n, "top", e.top);
         row(problem, method, 2, n, "base", e.base);
         row(problem, method, 2, n, "unbalanced", e.unbalanced);

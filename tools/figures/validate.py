@@ -160,7 +160,7 @@ def main():
     for problem in dict.fromkeys(row["problem"] for row in errors):
         quantities = ["displacement", "stress"]
         if problem.startswith("column"):
-            quantities += ["centre stress", "unbalanced"] if "rest" in problem else ["top", "base"]
+            quantities += ["inner stress", "unbalanced"] if "rest" in problem else ["top", "base"]
         for quantity in quantities:
             print_table(errors, problem, quantity)
     print_discs(discs)
