@@ -35,7 +35,7 @@ TEST_P(Discs, CollisionKeepsMomentumAndFlipEnergy) {
   // Σ N_i = 1 and Σ ∇N_i = 0: internal forces sum to zero. Round-off of some 10³ sums in each of some 10² steps.
   EXPECT_LT(flip.momentum, 1e-13);
   // FLIP and the step in time make and lose nothing in the mean; the quadrature with the points does, as their order is
-  // lost in the collision: a few per cent with five points per element.
+  // lost in the collision: 3 or 4 % with five points per element.
   const auto e = energies(flip);
   EXPECT_GT(e.low, 0.96);
   EXPECT_LT(e.high, 1.03);
@@ -52,8 +52,8 @@ TEST_P(Discs, PicTakesEnergyAndKeepsMomentum) {
     const auto run = collide(20, method);
     EXPECT_LT(run.momentum, 1e-13);
     const auto e = energies(run);
-    // Each step takes (1 − φ²) of what the mesh does not see: energy never grows by more than FLIP's own drift (1 %),
-    // and the more PIC, the less is left.
+    // Each step takes about (1 − φ²) of what the mesh does not see: energy never grows by more than FLIP's own drift (1
+    // %), and the more PIC, the less is left.
     EXPECT_LT(e.high, 1.01);
     EXPECT_LT(e.end, before);
     before = e.end;
@@ -80,15 +80,20 @@ TEST_P(Discs, TurningDiscKeepsItsAngularMomentumAsTheMeshIsRefined) {
     const double now = std::abs(run.history.back().angular_momentum / exact_spin - 1);
     EXPECT_LT(now, 0.5 * lost);
     lost = now;
+    // Energy within what the collision keeps. The corrected quadrature adds some: the weights of points change as they
+    // move, and what is stored comes back at another weight (1.04 with linear functions, n = 40; with eq. 4 as printed
+    // nothing is gained). With velocities v^t + a dt in place of eq. 8 a turn would take 7 to 20 %.
     const auto e = energies(run);
+    EXPECT_GT(e.low, 0.97);
+    EXPECT_LT(e.high, 1.05);
     std::printf("turning disc, %s, n = %d: angular momentum less %.2e after a turn, energy %.4f to %.4f\n",
                 name_of(GetParam()).c_str(), n, now, e.low, e.high);
   }
 }
 
 TEST_P(Discs, MotionWithoutStressKeepsAngularMomentumToRoundOff) {
-  // Of dL above only the motion is left where there are no forces: zero to round-off. Were positions moved with v^t +
-  // a dt of eq. 5 and not with the velocities of eqs 7 and 8, this would fail as soon as points have moved.
+  // Of dL above only the motion is left where there are no forces, and that is zero to round-off as long as points move
+  // with the functions that their momentum was mapped with.
   auto body = turning_disc(20, {GetParam()});
   for (auto& block : body.blocks) block.model = LinearElastic({1e-30, 0});
   for (int s = 0; s < 100; ++s) advance(body, 0.005, Method{GetParam()}.settings());
