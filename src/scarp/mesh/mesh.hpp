@@ -90,7 +90,7 @@ struct Mesh {
   std::vector<ElementType> types;  ///< one per element
   std::vector<int> offsets;        ///< elements + 1; local nodes of e are connectivity[offsets[e] ... offsets[e+1])
   std::vector<int> connectivity;
-  std::vector<double> size;         ///< one per element, for the critical time step [m]: its least height, or less (make_grid)
+  std::vector<double> size;  ///< one per element, for the critical time step: least height, or less (make_grid) [m]
   std::vector<int> around_offsets;  ///< elements + 1; elements that share a node with e (e itself not) ...
   std::vector<int> around;          ///< ... ascending. Both empty in a grid, where they follow from the index
   std::map<std::string, std::vector<int>> node_sets;  ///< ascending; the sides (add_side_sets) and named groups
