@@ -34,12 +34,12 @@ struct Method {
   std::string name() const { return name_of(shape) + (quadrature == Quadrature::points ? ", points" : ", corrected"); }
 };
 
-/// Every shape function with every quadrature that makes a difference: GIMP always uses eq. 4 as printed.
+/// Every shape function with every quadrature that makes a difference: GIMP has eq. 4 as printed only.
 inline std::vector<Method> all_methods() {
   std::vector<Method> methods;
   for (const auto shape : all_shapes) {
-    methods.push_back({shape, Quadrature::corrected});
-    if (shape != GridFunctions::gimp) methods.push_back({shape, Quadrature::points});
+    if (shape != GridFunctions::gimp) methods.push_back({shape, Quadrature::corrected});
+    methods.push_back({shape, Quadrature::points});
   }
   return methods;
 }

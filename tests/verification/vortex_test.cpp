@@ -37,43 +37,43 @@ TEST(Vortex, ForceBalancesTheMotionItIsDerivedFor) {
   }
 }
 
-/// Relative L2 errors over 0 ≤ t ≤ 1 with 4, 8 and 16 elements across the ring, 2 × 2 points in each.
-struct Errors {
-  std::vector<double> displacement, stress;
-};
-
-Errors refine(double A, const Method& method) {
-  Errors errors;
-  for (const int n : {24, 48, 96}) {
-    const auto found = follow_vortex(A, n, 2, method);
-    errors.displacement.push_back(found.displacement);
-    errors.stress.push_back(found.stress);
+/// Relative L2 errors over 0 ≤ t ≤ 1 on some meshes of n × n elements, n/6 of them across the ring.
+DrivenErrors refine(double A, std::initializer_list<int> meshes, int per_cell, const Method& method,
+                    std::vector<double>& displacement) {
+  std::vector<double> stress;
+  for (const int n : meshes) {
+    const auto found = follow_vortex(A, n, per_cell, method);
+    displacement.push_back(found.displacement);
+    stress.push_back(found.stress);
   }
-  std::printf("vortex, A = %g, %s, n = 24, 48, 96: displacement %s; stress %s\n", A, method.name().c_str(),
-              text_of(errors.displacement).c_str(), text_of(errors.stress).c_str());
-  return errors;
+  std::printf("vortex, A = %g, %s, %d x %d points, up to n = %d: displacement %s; stress %s\n", A,
+              method.name().c_str(), per_cell, per_cell, *(meshes.end() - 1), text_of(displacement).c_str(),
+              text_of(stress).c_str());
+  return {displacement.back(), stress.back()};
 }
 
 TEST(Vortex, SmallTurnsConvergeWithEveryShape) {
-  // A = 0.1, shear strains up to 0.6. Second order as any smooth motion (with four elements across the ring errors of
-  // half of the motion, so that the first step of refinement gains more). Band: 5 % with sixteen elements across.
+  // A = 0.1, shear strains up to 0.6. Second order as any smooth motion (with four elements across the ring errors are
+  // half of the motion, so that the first refinement gains more). Band: 5 % with sixteen elements across.
   for (const auto shape : all_shapes) {
-    const auto errors = refine(0.1, {shape});
-    for (const double order : orders(errors.displacement)) EXPECT_GT(order, 1.9);
-    EXPECT_LT(errors.displacement.back(), 0.05);
+    std::vector<double> errors;
+    EXPECT_LT(refine(0.1, {24, 48, 96}, 2, {shape}, errors).displacement, 0.05);
+    for (const double order : orders(errors)) EXPECT_GT(order, 1.9);
   }
 }
 
 TEST(Vortex, SmoothFunctionsFollowTheWholeTurn) {
-  // A = 1, shear strains up to 6: shells pass each other by three elements and come back. Band: 6 % with sixteen
-  // elements across, each refinement at least halving what was left. (Linear functions break down here with 2 × 2 and 3
-  // × 3 points: make validate.)
+  // A = 1, shear strains up to 6: shells pass each other by three elements and come back. Band: 5 % of the displacement
+  // and 25 % of the stress with thirteen elements across the ring.
+  // Two errors meet: that of the mesh, of order 2, and that of the strain increments, of first order in dt (the turn
+  // comes before the strain, docs/verification.md), which has the other sign. (Linear functions break down here with so
+  // few points, and smooth ones with fewer: make validate.)
   for (const auto shape : {GridFunctions::b_spline, GridFunctions::gimp}) {
-    const auto errors = refine(1, {shape});
-    EXPECT_LT(errors.displacement[2], 0.5 * errors.displacement[1]);
-    EXPECT_LT(errors.displacement[1], 0.5 * errors.displacement[0]);
-    EXPECT_LT(errors.displacement.back(), 0.06);
-    EXPECT_LT(errors.stress.back(), 0.25);
+    std::vector<double> errors;
+    const auto fine = refine(1, {40, 80}, 3, {shape}, errors);
+    EXPECT_LT(fine.displacement, 0.05);
+    EXPECT_LT(fine.stress, 0.25);
+    EXPECT_GT(orders(errors).back(), 1.9);
   }
 }
 

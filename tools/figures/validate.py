@@ -35,7 +35,7 @@ def number(value):
     if math.isnan(value):
         return "broke down"
     mantissa, exponent = f"{value:.2e}".split("e")
-    return f"{mantissa}e{int(exponent)}"
+    return f"{mantissa}e{int(exponent)}" if not 0.1 <= abs(value) < 10 else f"{value:.3f}"
 
 
 def order(pairs):
@@ -60,13 +60,14 @@ def print_table(errors, problem, quantity):
 
 
 def draw_errors(axis, errors, problem, quantity, per_cell):
-    """Errors over n, corrected quadrature drawn through and eq. 4 as printed dashed."""
+    """Errors over n; dashed with eq. 4 as printed where there is another quadrature."""
     for (shape, quadrature, points), pairs in curves(errors, problem, quantity).items():
         if points != per_cell:
             continue
-        style = "o-" if quadrature == "corrected" else "s--"
+        through = quadrature == "corrected" or shape == "gimp"
+        style = "o-" if through else "s--"
         axis.loglog(*zip(*pairs), style, color=COLOURS[shape], ms=3, mfc="none",
-                    label=shape + ("" if quadrature == "corrected" else ", eq. 4 as printed"))
+                    label=shape + ("" if through else ", eq. 4 as printed"))
 
 
 def slope(axis, power):
@@ -86,8 +87,9 @@ def slope(axis, power):
 def draw_convergence(plt, errors):
     panels = [("manufactured, small strain", "displacement", 2, 2), ("manufactured, small strain", "stress", 2, 1),
               ("manufactured, large strain", "displacement", 3, 2), ("column at rest", "stress", 2, 1),
-              ("vortex, A = 0.1", "displacement", 3, 2), ("vortex, A = 1", "displacement", 4, 2)]
-    figure, axes = plt.subplots(2, 3, figsize=(10, 6.4))
+              ("column, sudden weight", "displacement", 2, 2), ("vortex, A = 0.1", "displacement", 3, 2),
+              ("vortex, A = 1", "displacement", 4, 2), ("vortex, A = 1, half the time step", "displacement", 4, 2)]
+    figure, axes = plt.subplots(2, 4, figsize=(13, 6.4))
     for axis, (problem, quantity, per_cell, power) in zip(axes.flat, panels):
         draw_errors(axis, errors, problem, quantity, per_cell)
         slope(axis, power)
@@ -108,10 +110,15 @@ def histories(discs, problem):
     return found
 
 
+def is_other(shape, quadrature):
+    """Not the quadrature that a shape function has by default?"""
+    return quadrature == "points" and shape != "gimp"
+
+
 def draw_discs(plt, discs):
     figure, axes = plt.subplots(2, 2, figsize=(10, 6.4))
     for (shape, quadrature, flip, n), run in histories(discs, "colliding discs").items():
-        if quadrature != "corrected":
+        if is_other(shape, quadrature):
             continue
         t, start = [at["t"] for at in run], run[0]["kinetic"]
         style = {"color": COLOURS[shape], "ls": FLIPS[flip]}
@@ -121,7 +128,7 @@ def draw_discs(plt, discs):
             axes[0, 1].plot(t, [at["stored"] / start for at in run], color=COLOURS[shape], ls="--",
                             label=f"{shape}, stored")
     for (shape, quadrature, flip, n), run in histories(discs, "turning disc").items():
-        if quadrature != "corrected" or flip != "1":
+        if is_other(shape, quadrature) or flip != "1":
             continue
         turns = [at["t"] * 0.5 / (2 * math.pi) for at in run]
         style = {"color": COLOURS[shape], "ls": {20: ":", 40: "--", 80: "-"}[n], "label": f"{shape}, n = {n}"}
