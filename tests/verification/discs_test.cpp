@@ -82,7 +82,7 @@ TEST_P(Discs, TurningDiscKeepsItsAngularMomentumAsTheMeshIsRefined) {
     lost = now;
     // Energy within what the collision keeps. The corrected quadrature adds some: the weights of points change as they
     // move, and what is stored comes back at another weight (1.04 with linear functions, n = 40; with eq. 4 as printed
-    // nothing is gained). With velocities v^t + a dt in place of eq. 8 a turn would take 7 to 20 %.
+    // nothing is gained). With velocities v^t + a dt in place of eq. 8 it would err by 7 to 21 %.
     const auto e = energies(run);
     EXPECT_GT(e.low, 0.97);
     EXPECT_LT(e.high, 1.05);
