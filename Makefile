@@ -3,11 +3,12 @@ BUILD := build
 JOBS := $(shell nproc)
 RESULTS := results/slope_cut
 
-.PHONY: help demo test build bench figures deps format clean
+.PHONY: help demo test validate build bench figures deps format clean
 
 help:
 	@echo "make demo     cut a slope of structured clay and draw what happens, in $(RESULTS)"
 	@echo "make test     build and run all tests"
+	@echo "make validate  run the verification problems on more meshes and draw them (minutes)"
 	@echo "make bench    measure the kernels, in $(BUILD)/bench.json"
 	@echo "make build    build the program, $(BUILD)/bin/scarp"
 	@echo "make figures  draw the pictures of docs and examples/lab again (minutes)"
@@ -22,6 +23,13 @@ test: deps
 	cmake --preset release -DSCARP_TESTS=ON -DSCARP_BENCH=OFF
 	cmake --build --preset release --parallel $(JOBS)
 	ctest --preset release --parallel $(JOBS)
+
+validate: deps
+	cmake --preset release -DSCARP_TESTS=ON -DSCARP_BENCH=OFF
+	cmake --build --preset release --parallel $(JOBS) --target validate
+	mkdir -p $(BUILD)/validate
+	$(BUILD)/tests/validate $(BUILD)/validate
+	/usr/bin/python3 tools/figures/validate.py $(BUILD)/validate
 
 build: deps
 	cmake --preset release -DSCARP_TESTS=OFF -DSCARP_BENCH=OFF
