@@ -3,12 +3,12 @@ BUILD := build
 JOBS := $(shell nproc)
 RESULTS := results/slope_cut
 
-.PHONY: help demo test build bench figures deps format clean
+.PHONY: help demo test build bench bench-kernels bench-programs figures deps format clean
 
 help:
 	@echo "make demo     cut a slope of structured clay and draw what happens, in $(RESULTS)"
 	@echo "make test     build and run all tests"
-	@echo "make bench    measure the kernels, in $(BUILD)/bench.json"
+	@echo "make bench    measure whole steps, in $(BUILD)/bench.json; make bench-kernels their parts"
 	@echo "make build    build the program, $(BUILD)/bin/scarp"
 	@echo "make figures  draw the pictures of docs and examples/lab again (minutes)"
 	@echo "make format   put the C++ text into the project's format"
@@ -27,13 +27,21 @@ build: deps
 	cmake --preset release -DSCARP_TESTS=OFF -DSCARP_BENCH=OFF
 	cmake --build --preset release --parallel $(JOBS)
 
-bench:
+# YARDSTICK=folder of step.cpp and law.cpp; CASES="q4-elastic ..."; POINTS="96000 1000000"; THREADS="1 2"; REPETITIONS=7
+bench: bench-programs
+	/usr/bin/python3 bench/steps.py --programs $(BUILD)/bench --out $(BUILD)/bench.json $(if $(YARDSTICK),--yardstick "$(YARDSTICK)") \
+	  $(if $(CASES),--cases $(CASES)) $(if $(POINTS),--points $(POINTS)) $(if $(THREADS),--threads $(THREADS)) \
+	  $(if $(REPETITIONS),--repetitions $(REPETITIONS))
+
+bench-kernels: bench-programs
+	OMP_NUM_THREADS=1 $(BUILD)/bin/scarp_bench --benchmark_repetitions=9 --benchmark_min_time=0.1 \
+	  --benchmark_enable_random_interleaving=true --benchmark_out=$(BUILD)/kernels.json > $(BUILD)/kernels.log
+	bench/table.py $(BUILD)/kernels.json
+
+bench-programs:
 	@tools/install-deps.sh --bench
 	cmake --preset release -DSCARP_TESTS=OFF -DSCARP_BENCH=ON
-	cmake --build --preset release --parallel $(JOBS) --target scarp_bench
-	OMP_NUM_THREADS=1 $(BUILD)/bin/scarp_bench --benchmark_repetitions=9 --benchmark_min_time=0.1 \
-	  --benchmark_enable_random_interleaving=true --benchmark_out=$(BUILD)/bench.json > $(BUILD)/bench.log
-	bench/table.py $(BUILD)/bench.json
+	cmake --build --preset release --parallel $(JOBS) --target scarp_bench step_bench machine operations
 
 figures: build
 	for script in examples constants models work_precision kinks; do \
