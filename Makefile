@@ -3,13 +3,14 @@ BUILD := build
 JOBS := $(shell nproc)
 RESULTS := results/slope_cut
 
-.PHONY: help demo test build bench bench-kernels bench-programs figures deps format clean
+.PHONY: help demo test build bench bench-kernels bench-programs package figures deps format clean
 
 help:
 	@echo "make demo     cut a slope of structured clay and draw what happens, in $(RESULTS)"
 	@echo "make test     build and run all tests"
 	@echo "make bench    measure whole steps, in $(BUILD)/bench.json; make bench-kernels their parts"
 	@echo "make build    build the program, $(BUILD)/bin/scarp"
+	@echo "make package  one program for every x86-64: build-package/*.deb and *.tar.gz"
 	@echo "make figures  draw the pictures of docs and examples/lab again (minutes)"
 	@echo "make format   put the C++ text into the project's format"
 	@echo "make clean    remove $(BUILD)"
@@ -42,6 +43,13 @@ bench-programs:
 	@tools/install-deps.sh --bench
 	cmake --preset release -DSCARP_TESTS=OFF -DSCARP_BENCH=ON
 	cmake --build --preset release --parallel $(JOBS) --target scarp_bench step_bench machine operations
+
+# One program for every x86-64, in build-package/*.deb and *.tar.gz: libscarp is there for each level of the processor.
+package: deps
+	for arch in x86-64 x86-64-v3 x86-64-v4; do \
+	  cmake -S . -B build-package/$$arch -DCMAKE_BUILD_TYPE=Release -DSCARP_ARCH=$$arch -DSCARP_SHARED=ON -DSCARP_TESTS=OFF && \
+	  cmake --build build-package/$$arch --parallel $(JOBS) --target scarp || exit 1; done
+	cpack --config build-package/x86-64/CPackConfig.cmake -B build-package
 
 figures: build
 	for script in examples constants models work_precision kinks; do \

@@ -1,7 +1,7 @@
 """What the machine allows at best: the bytes that a step cannot do without, at the bandwidth of the memory, or its
 operations, at the peak of the arithmetic, whichever takes longer. docs/benchmarks.md derives the counts."""
 
-# case: (dimension, nodes of an element, columns of the law's state besides stress, stores local coordinates, the law)
+# case: (dimension, nodes of an element, columns of the law's state besides stress, local coordinates stored?, the law)
 CASES = {
     "q4-elastic": (2, 4, 0, False, "linear-elastic"),
     "mesh-elastic": (2, 4, 0, True, "linear-elastic"),
@@ -32,7 +32,7 @@ def least_bytes(dim, nodes, state, stores_local, points_per_element):
 
 
 def least_operations(dim, nodes, law):
-    """Additions, multiplications, divisions and roots per point and step, `law` of them in the law; a b + c counts two."""
+    """Additions, multiplications, divisions and roots per point and step, `law` of them in the law; a b + c is two."""
     stress = 4 if dim == 2 else 6
     local = 2 * dim
     shape = {3: 2, 4: 6, 8: 26, 9: 2 * 8 + 9}[nodes]
@@ -45,7 +45,8 @@ def least_operations(dim, nodes, law):
 
 
 def of_case(record, machine, laws):
-    """Fields of a record, from what the machine can do and the operations of the laws in each dimension: bytes and operations at least, the limit [ns per point and step] and how near the median comes."""
+    """Fields of a record, from what the machine can do and the operations of the laws in each dimension: bytes and
+    operations at least, the limit [ns per point and step] and how near to it the median is."""
     dim, nodes, state, stores_local, law = CASES[record["case"]]
     moved = least_bytes(dim, nodes, state, stores_local, record["points_per_element"])
     operations = least_operations(dim, nodes, laws[law][str(dim)])

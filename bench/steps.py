@@ -153,8 +153,8 @@ def print_table(records, machine):
     for threads, found in machine.items():
         print(f"{threads} thread{'s' * (threads > 1)}: memory {1e-9 * found['bytes_per_second']:.1f} GB/s, "
               f"arithmetic {1e-9 * found['flops_per_second']:.1f} Gflop/s in batches of {found['lanes']:.0f}")
-    print("\nns per point and step: median, least and largest of the repetitions; CPU: of all threads; E, L: the yardsticks;\n"
-          "x goal: on one thread; limit: what memory or arithmetic of this machine allow; of it: how near the median is\n")
+    print("\nns per point and step: median, least and largest of the repetitions; CPU: of all threads; E, L: yardsticks;\n"
+          "x goal: on one thread; limit: what memory or arithmetic of this machine allow; of it: how near the median\n")
     head = ("case", "threads", "points", "ns", "low", "high", "CPU", "E", "L", "goal", "x goal", "speed-up", "limit",
             "of it", "bytes/pt", "substeps")
     rows = [head]

@@ -4,47 +4,48 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
 
 #include "ground.hpp"
 #include "scarp/base/error.hpp"
+#include "scarp/io/vtu.hpp"
 #include "scarp/run/build.hpp"
+#include "scarp/run/fields.hpp"
 #include "scarp/run/stage.hpp"
 #include "soil.hpp"
 
 namespace scarp::bench {
 namespace {
 
-/// Since it was made: time on the clock and of the processor.
-class Timer {
-  using Clock = std::chrono::steady_clock;
-
- public:
-  void read(Repetition& result) const {
-    result.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-    result.cpu_seconds = static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC;
-  }
-
- private:
-  std::clock_t cpu_ = std::clock();
-  Clock::time_point start_ = Clock::now();
-};
-
 constexpr double time_step = 1e-4;         // [s]; points stay in their elements for hundreds of steps
 constexpr double compression_rate = 0.01;  // [1/s]: 1e-6 of strain in a step
 
 template <int Dim>
-Prepared steps_of(Body<Dim> start) {
-  const auto body = std::make_shared<Body<Dim>>(std::move(start));
+Times write_frame(const Body<Dim>& body, const std::string& path) {
+  const Timer timer;
+  io::write_points_vtu(path, run::frame_positions(body), run::frame_fields(body));
+  Times times;
+  timer.read(times);
+  return times;
+}
+
+/// make() gives the body.
+template <class Make>
+Prepared steps_of(Make&& make) {
+  Prepared prepared;
+  const Timer since_start;
+  const auto body = std::make_shared<decltype(make())>(make());
+  since_start.read(prepared.start);
   compress(*body, compression_rate);
   if (!(time_step < 0.5 * critical_time_step(*body))) throw std::logic_error("the benchmark's time step is too long");
   const int points = body->point_count(), steps = std::clamp(4'000'000 / points, 4, 4000);
   for (int k = 0; k < 3; ++k) advance(*body, time_step, {});  // buffers and caches find their size
-  const auto repeat = [body, steps, points](bool profile) {
+  prepared.points = points;
+  prepared.elements = body->active.size();
+  prepared.write_frame = [body](const std::string& path) { return write_frame(*body, path); };
+  prepared.repeat = [body, steps, points](bool profile) {
     StepSettings settings;
     settings.profile = profile;
     Repetition result;
@@ -60,7 +61,7 @@ Prepared steps_of(Body<Dim> start) {
     result.point_steps = static_cast<std::int64_t>(steps) * points;
     return result;
   };
-  return {points, body->active.size(), repeat};
+  return prepared;
 }
 
 /// A folder that is gone with its owner.
@@ -96,8 +97,7 @@ class SlopeCut {
     ledger_at_rest_ = ledger_;
   }
 
-  int points() const { return body_.point_count(); }
-  int elements() const { return body_.active.size(); }
+  const Body<2>& body() const { return body_; }
 
   Repetition cut(bool profile) {
     body_.blocks = at_rest_;
@@ -142,20 +142,27 @@ class SlopeCut {
 };
 
 Prepared slope_cut_failing() {
+  Prepared prepared;
+  const Timer since_start;
   const auto slope = std::make_shared<SlopeCut>();
-  return {slope->points(), slope->elements(), [slope](bool profile) { return slope->cut(profile); }};
+  since_start.read(prepared.start);
+  prepared.points = slope->body().point_count();
+  prepared.elements = slope->body().active.size();
+  prepared.repeat = [slope](bool profile) { return slope->cut(profile); };
+  prepared.write_frame = [slope](const std::string& path) { return write_frame(slope->body(), path); };
+  return prepared;
 }
 
 }  // namespace
 
 Prepared prepare(const std::string& name, int points) {
   const AnyModel elastic = LinearElastic({1e4, 0.25});
-  if (name == "q4-elastic") return steps_of(run::build_body(grid_case<2>(points, elastic)));
-  if (name == "mesh-elastic") return steps_of(mesh_body(points, elastic, ElementShape::quadrilaterals));
-  if (name == "mesh-elastic-t3") return steps_of(mesh_body(points, elastic, ElementShape::triangles));
-  if (name == "q4-subloading") return steps_of(run::build_body(grid_case<2>(points, soil())));
-  if (name == "h8-elastic") return steps_of(run::build_body(grid_case<3>(points, elastic)));
-  if (name == "h8-subloading") return steps_of(run::build_body(grid_case<3>(points, soil())));
+  if (name == "q4-elastic") return steps_of([&] { return run::build_body(grid_case<2>(points, elastic)); });
+  if (name == "mesh-elastic") return steps_of([&] { return mesh_body(points, elastic, ElementShape::quadrilaterals); });
+  if (name == "mesh-elastic-t3") return steps_of([&] { return mesh_body(points, elastic, ElementShape::triangles); });
+  if (name == "q4-subloading") return steps_of([&] { return run::build_body(grid_case<2>(points, soil())); });
+  if (name == "h8-elastic") return steps_of([&] { return run::build_body(grid_case<3>(points, elastic)); });
+  if (name == "h8-subloading") return steps_of([&] { return run::build_body(grid_case<3>(points, soil())); });
   if (name == "slope-cut-failing") return slope_cut_failing();
   throw InputError("there is no such benchmark", '"' + name + '"', "see docs/benchmarks.md for their names");
 }
