@@ -172,6 +172,9 @@ class BadInput(ProgramTest):
         self.refuse(huge, f"bad.toml:{place(huge, '[mesh]')}:", "at most 200000000 elements", "use larger elements")
         line = replaced(COLUMN, 'nodes = "left"', "line = [[0.1, 0.0], [0.1, 4.0]]")
         self.refuse(line, f"bad.toml:{place(line, '[[boundary]]' + chr(10) + 'line')}:", "no node", "(0.1, 0)", "edges")
+        inner = replaced(line, "[mesh]", '[method]\nshape = "b-spline"\n\n[mesh]').replace("0.1, ", "0.25, ")
+        self.refuse(inner, f"bad.toml:{place(inner, '[[boundary]]' + chr(10) + 'line')}:", "B-splines", "side of the grid",
+                    "(0.25, 0) to (0.25, 4)", 'shape = "linear"')
         twice = COLUMN + '[[region]]\nname = "other"\nmaterial = "ground"\nspacing = 0.25\nK0 = 1.0\n' \
             "polygon = [[0.0, 2.0], [1.0, 2.0], [1.0, 4.0], [0.0, 4.0]]\n"
         self.refuse(twice, 'regions "other" and "column" overlap', "share no more than their edges")
@@ -201,6 +204,8 @@ class BadInput(ProgramTest):
         self.write("mesh.msh", mesh)  # whole, it serves
         self.write("good.toml", with_file)
         self.assertIn("1 elements, 4 nodes", self.scarp("check", "good.toml").stdout)
+        shape = replaced(with_file, "[mesh]", '[method]\nshape = "gimp"\n\n[mesh]')
+        self.refuse(shape, f"bad.toml:{place(shape, chr(34) + 'gimp')}:", "need a mesh that is a grid", '"gimp"', "leave shape out")
 
     def test_files_that_cannot_be_read(self):
         for name in ("nosuch.toml", "r"):

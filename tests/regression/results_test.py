@@ -37,8 +37,13 @@ class Results(ProgramTest):
         # The same points in each of two layers, which move alike: all energies are half of those per metre.
         self.write("plane.toml", replaced(COLUMN, "spacing = 0.25", "spacing = 0.25\nvelocity = [0.0, -0.1]"))
         self.write("space.toml", replaced(COLUMN_IN_SPACE, "spacing = 0.25", "spacing = 0.25\nvelocity = [0.0, 0.0, -0.1]"))
-        self.scarp("run", "plane.toml", "--quiet", "--out", "plane")
-        self.scarp("run", "space.toml", "--quiet", "--out", "space")
+        for shape in ("linear", "gimp", "b-spline"):
+            with self.subTest(shape=shape):
+                for case in ("plane", "space"):
+                    self.scarp("run", f"{case}.toml", "--quiet", "--out", case, "--set", f"method.shape={shape}")
+                self.expect_half()
+
+    def expect_half(self):
         plane, space = self.history("plane"), self.history("space")
         self.assertEqual([row["time"] for row in plane], [row["time"] for row in space])
         for key in ("mass", "kinetic_energy", "work_gravity", "work_stress", "dissipation_damping"):

@@ -29,7 +29,7 @@ TEST(Allocation, NoneInStepsOfTheFullModel) {
 }
 
 TEST(Allocation, NoneInStepsWherePointsChangeElement) {
-  for (const auto background : {Background::grid, Background::mixed}) {
+  for (const auto background : {Background::grid, Background::gimp, Background::b_spline, Background::mixed}) {
     auto body = soil<2>(plane_mesh(background, 10), elastic(), 20, 1.0);
     const auto counts = count(body, 300);
     EXPECT_GT(counts.changed, 100);
@@ -38,10 +38,12 @@ TEST(Allocation, NoneInStepsWherePointsChangeElement) {
 }
 
 TEST(Allocation, NoneInSpace) {
-  auto body = soil<3>(solid_mesh(Background::grid, 6), elastic(), 10, 1.0);
-  const auto counts = count(body, 100);
-  EXPECT_GT(counts.changed, 100);
-  EXPECT_EQ(counts.allocations, 0);
+  for (const auto background : {Background::grid, Background::gimp, Background::b_spline}) {
+    auto body = soil<3>(solid_mesh(background, 6), elastic(), 10, 1.0);
+    const auto counts = count(body, 100);
+    EXPECT_GT(counts.changed, 100);
+    EXPECT_EQ(counts.allocations, 0);
+  }
 }
 
 }  // namespace

@@ -13,17 +13,26 @@
 
 namespace scarp::test {
 
-enum class Background { grid, quads, triangles, mixed };
+enum class Background { grid, gimp, b_spline, quads, triangles, mixed };
+
+inline bool is_grid(Background kind) {
+  return kind <= Background::b_spline;
+}
+inline GridFunctions functions_of(Background kind) {
+  return kind == Background::gimp       ? GridFunctions::gimp
+         : kind == Background::b_spline ? GridFunctions::b_spline
+                                        : GridFunctions::linear;
+}
 
 inline Mesh<2> plane_mesh(Background kind, int n) {
-  if (kind == Background::grid) return make_grid({0, 0}, {1, 1}, {n, n});
+  if (is_grid(kind)) return make_grid({0, 0}, {1, 1}, {n, n}, functions_of(kind));
   return irregular(n, 0.2,
                    kind == Background::quads       ? Kind::quads
                    : kind == Background::triangles ? Kind::triangles
                                                    : Kind::mixed);
 }
 inline Mesh<3> solid_mesh(Background kind, int n) {
-  if (kind == Background::grid) return make_grid<3>({0, 0, 0}, {1, 1, 1}, {n, n, n});
+  if (is_grid(kind)) return make_grid<3>({0, 0, 0}, {1, 1, 1}, {n, n, n}, functions_of(kind));
   return irregular(n, 0.1,
                    kind == Background::quads       ? Solid::hexahedra
                    : kind == Background::triangles ? Solid::tetrahedra

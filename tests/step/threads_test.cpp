@@ -72,6 +72,21 @@ TEST(SameBitsOn1And2And3And8Threads, SubloadingOnAMixedMesh) {
   expect_same(
       [](int threads) { return run<2>(threads, plane_mesh(Background::mixed, 40), subloading(), 60, 100, 1.0); });
 }
+TEST(SameBitsOn1And2And3And8Threads, SubloadingWithBSplines) {
+  expect_same(
+      [](int threads) { return run<2>(threads, plane_mesh(Background::b_spline, 40), subloading(), 60, 100, 1.0); });
+}
+TEST(SameBitsOn1And2And3And8Threads, SubloadingWithGimp) {
+  expect_same(
+      [](int threads) { return run<2>(threads, plane_mesh(Background::gimp, 40), subloading(), 60, 100, 1.0); });
+}
+TEST(SameBitsOn1And2And3And8Threads, ElasticWithBSplinesInSpace) {
+  expect_same(
+      [](int threads) { return run<3>(threads, solid_mesh(Background::b_spline, 10), elastic(), 14, 60, 1.0); });
+}
+TEST(SameBitsOn1And2And3And8Threads, ElasticWithGimpInSpace) {
+  expect_same([](int threads) { return run<3>(threads, solid_mesh(Background::gimp, 10), elastic(), 14, 60, 1.0); });
+}
 TEST(SameBitsOn1And2And3And8Threads, SubloadingInSpace) {
   expect_same(
       [](int threads) { return run<3>(threads, solid_mesh(Background::grid, 12), subloading(), 14, 100, 1.0); });

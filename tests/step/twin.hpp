@@ -1,12 +1,16 @@
 // The step again, slow and obvious: serial, one point at a time in the order of their numbers, plain doubles, every sum
 // over all points and every node of the mesh, straight from section 2 of the report and docs/theory.md. Shares with the
-// fast step the shapes on double, the laws, and what conditions do to one node; none of its data flow.
+// fast step the shapes on double (of unstructured meshes: those of grids are taken from their definitions), the laws,
+// and what conditions do to one node; none of its data flow.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <vector>
 
+#include "../unit/mesh/grid_oracles.hpp"
 #include "scarp/step/step.hpp"
 
 namespace scarp::test {
@@ -18,7 +22,7 @@ class Twin {
 
  public:
   struct Point {
-    double m, Omega;
+    double m, Omega, half_edge;  ///< of the domain, from the volume at the start
     Vec<Dim> x, v;
     State state;  ///< compression positive
     int element;
@@ -33,6 +37,7 @@ class Twin {
       Point& point = points[p.id[i]];
       point.m = p.mass[i];
       point.Omega = p.volume[i];
+      point.half_edge = 0.5 * std::pow(p.initial_volume[i], 1.0 / Dim);
       for (int j = 0; j < Dim; ++j) {
         point.x[j] = p.x[j][i];
         point.v[j] = p.v[j][i];
@@ -169,6 +174,7 @@ class Twin {
   int element_of(const Point& point) const {
     const auto& mesh = *body_.mesh;
     const auto holds = [&](int e) {
+      if (mesh.grid) return grid_holds(*mesh.grid, e, point.x);
       return with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
         return Shape::beyond(Shape::local_coordinates(node_positions<Shape>(mesh, e), point.x)) <=
                body_.locator.tolerance();
@@ -181,6 +187,31 @@ class Twin {
     throw std::runtime_error("a point of the twin has left the mesh");
   }
 
+  bool grid_holds(const Grid<Dim>& grid, int e, const Vec<Dim>& x) const {
+    const auto at = grid.cell(e);
+    bool holds = true;
+    for (int j = 0; j < Dim; ++j) {
+      const double s = (x[j] - grid.origin[j]) / grid.spacing[j] - at[j], tolerance = body_.locator.tolerance();
+      holds = holds && s >= -tolerance && s <= 1 + tolerance;
+    }
+    return holds;
+  }
+
+  /// Nodes of a grid that are not nothing at x, by the definitions of its functions.
+  AtPoint at_nodes_of_grid(int e, const Vec<Dim>& x, double half_edge) const {
+    const auto all = functions_of_all_nodes<Dim>(*body_.mesh, e, x, half_edge);
+    AtPoint at;
+    for (int n = 0; n < body_.mesh->node_count(); ++n) {
+      bool nothing = all.N[n] == 0;
+      for (const double slope : all.B[n]) nothing = nothing && slope == 0;
+      if (nothing) continue;
+      at.node.push_back(n);
+      at.N.push_back(all.N[n]);
+      at.B.push_back(all.B[n]);
+    }
+    return at;
+  }
+
   void find_shapes(bool corrected) {
     const auto& mesh = *body_.mesh;
     at_.assign(points.size(), {});
@@ -188,6 +219,10 @@ class Twin {
     for (std::size_t k = 0; k < points.size(); ++k) {
       const int e = points[k].element;
       in[e].push_back(k);
+      if (mesh.grid) {
+        at_[k] = at_nodes_of_grid(e, points[k].x, points[k].half_edge);
+        continue;
+      }
       with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
         const auto x_i = node_positions<Shape>(mesh, e);
         std::array<double, Shape::nodes> N_i;
@@ -197,56 +232,93 @@ class Twin {
         at_[k] = {{nodes.begin(), nodes.end()}, {N_i.begin(), N_i.end()}, {B.begin(), B.end()}};
       });
     }
-    if (!corrected) return;
+    if (!corrected || (mesh.grid && mesh.grid->functions == GridFunctions::gimp)) return;
     for (int e = 0; e < mesh.element_count(); ++e) {
       bool inside = !in[e].empty();
       for (const int other : mesh.elements_around(e)) inside = inside && !in[other].empty();
-      if (inside) with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) { correct<Shape>(e, in[e]); });
+      if (inside) correct(e, in[e]);
     }
   }
 
-  /// Corrected quadrature inside the soil, as in docs/theory.md.
-  template <class Shape>
-  void correct(int e, const std::vector<std::size_t>& in) {
-    const auto x_i = node_positions<Shape>(*body_.mesh, e);
-    double V = 0, filled = 0;
-    std::array<Vec<Dim>, Shape::nodes> exact{}, mean{};
-    const auto add = [&](const Vec<Dim>& xi, double weight) {
-      std::array<double, Shape::nodes> N_i;
-      std::array<Vec<Dim>, Shape::nodes> B;
-      const double dV = weight * gradients<Shape>(x_i, xi, N_i, B);
-      V += dV;
-      for (int i = 0; i < Shape::nodes; ++i) {
-        for (int j = 0; j < Dim; ++j) exact[i][j] += B[i][j] * dV;
-      }
-    };
-    if constexpr (Shape::nodes == Dim + 1) {
-      add({}, Dim == 2 ? 0.5 : 1.0 / 6);
-    } else {
-      // Three Gauss points along each axis: one more than it takes.
-      const double place[3] = {-std::sqrt(0.6), 0, std::sqrt(0.6)}, weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
-      for (int q = 0; q < (Dim == 2 ? 9 : 27); ++q) {
-        const int k[3] = {q % 3, q / 3 % 3, q / 9};
-        Vec<Dim> xi;
-        double w = 1;
+  /// f(B_i, nodes i, dV) at quadrature points of element e that integrate gradients exactly.
+  template <class F>
+  void for_quadrature_points(int e, F&& f) const {
+    const auto& mesh = *body_.mesh;
+    if (mesh.grid) {
+      for_gauss_points([&](const Vec<Dim>& xi, double weight) {
+        const auto& grid = *mesh.grid;
+        const auto place = grid.cell(e);
+        Vec<Dim> x;
         for (int j = 0; j < Dim; ++j) {
-          xi[j] = place[k[j]];
-          w *= weight[k[j]];
+          x[j] = grid.origin[j] + (place[j] + 0.5 * (1 + xi[j])) * grid.spacing[j];
+          weight *= 0.5 * grid.spacing[j];
         }
-        add(xi, w);
+        const auto at = at_nodes_of_grid(e, x, 0);
+        f(at.B, at.node, weight);
+      });
+      return;
+    }
+    with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
+      const auto add = [&](const Vec<Dim>& xi, double weight) {
+        std::array<double, Shape::nodes> N_i;
+        std::array<Vec<Dim>, Shape::nodes> B;
+        const double dV = weight * gradients<Shape>(node_positions<Shape>(mesh, e), xi, N_i, B);
+        f(B, mesh.element_nodes(e), dV);
+      };
+      if constexpr (Shape::nodes == Dim + 1) {
+        add({}, Dim == 2 ? 0.5 : 1.0 / 6);
+      } else {
+        for_gauss_points(add);
       }
+    });
+  }
+
+  /// f(ξ, weight) for three Gauss points along each axis from −1 to 1: one more than it takes.
+  template <class F>
+  static void for_gauss_points(F&& f) {
+    const double place[3] = {-std::sqrt(0.6), 0, std::sqrt(0.6)}, weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
+    for (int q = 0; q < (Dim == 2 ? 9 : 27); ++q) {
+      const int k[3] = {q % 3, q / 3 % 3, q / 9};
+      Vec<Dim> xi;
+      double w = 1;
+      for (int j = 0; j < Dim; ++j) {
+        xi[j] = place[k[j]];
+        w *= weight[k[j]];
+      }
+      f(xi, w);
+    }
+  }
+
+  /// Corrected quadrature inside the soil, as in docs/theory.md. Numbers of nodes are those of the mesh.
+  void correct(int e, const std::vector<std::size_t>& in) {
+    double V = 0, filled = 0;
+    std::map<int, Vec<Dim>> shift;  // s_i
+    for_quadrature_points(e, [&](const auto& B, const auto& nodes, double dV) {
+      V += dV;
+      for (std::size_t i = 0; i < B.size(); ++i) {
+        for (int j = 0; j < Dim; ++j) shift[nodes[i]][j] += B[i][j] * dV;
+      }
+    });
+    for (const auto k : in) filled += points[k].Omega;
+    if (!(filled > 0.5 * V && filled < 2 * V)) return;
+    for (auto& [n, s] : shift) {
+      for (double& component : s) component /= V;
     }
     for (const auto k : in) {
-      filled += points[k].Omega;
-      for (int i = 0; i < Shape::nodes; ++i) {
-        for (int j = 0; j < Dim; ++j) mean[i][j] += points[k].Omega * at_[k].B[i][j];
+      for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
+        for (int j = 0; j < Dim; ++j) shift[at_[k].node[i]][j] -= points[k].Omega * at_[k].B[i][j] / filled;
       }
     }
-    if (!(filled > 0.5 * V && filled < 2 * V)) return;
     for (const auto k : in) {
       at_[k].w = V / filled;
-      for (int i = 0; i < Shape::nodes; ++i) {
-        for (int j = 0; j < Dim; ++j) at_[k].B[i][j] += exact[i][j] / V - mean[i][j] / filled;
+      for (const auto& [n, s] : shift) {
+        const auto known = std::find(at_[k].node.begin(), at_[k].node.end(), n) - at_[k].node.begin();
+        if (known == static_cast<std::ptrdiff_t>(at_[k].node.size())) {
+          at_[k].node.push_back(n);
+          at_[k].N.push_back(0);
+          at_[k].B.push_back({});
+        }
+        for (int j = 0; j < Dim; ++j) at_[k].B[known][j] += s[j];
       }
     }
   }

@@ -102,9 +102,10 @@ TEST_P(InSpace, Subloading) {
   run_both<Subloading, 3>(solid_mesh(GetParam(), 6), subloading(), 8, 200, all_on, 0.5);
 }
 
-const auto backgrounds = testing::Values(Background::grid, Background::quads, Background::triangles, Background::mixed);
+const auto backgrounds = testing::Values(Background::grid, Background::gimp, Background::b_spline, Background::quads,
+                                         Background::triangles, Background::mixed);
 const auto name = [](const auto& its) {
-  return std::array{"grid", "quads", "triangles", "mixed"}[static_cast<int>(its.param)];
+  return std::array{"grid", "gimp", "b_spline", "quads", "triangles", "mixed"}[static_cast<int>(its.param)];
 };
 INSTANTIATE_TEST_SUITE_P(Twin, InThePlane, backgrounds, name);
 INSTANTIATE_TEST_SUITE_P(Twin, InSpace, backgrounds, name);

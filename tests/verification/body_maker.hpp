@@ -9,10 +9,11 @@
 namespace scarp::verification {
 
 /// A body on a grid over low..high (sizes in whole elements); no points yet.
-inline Body<2> on_grid(const Vec<2>& low, const Vec<2>& high, const std::array<int, 2>& elements,
-                       const Vec<2>& gravity) {
-  return Body<2>(std::make_unique<const Mesh<2>>(make_grid(low, {high[0] - low[0], high[1] - low[1]}, elements)),
-                 gravity);
+inline Body<2> on_grid(const Vec<2>& low, const Vec<2>& high, const std::array<int, 2>& elements, const Vec<2>& gravity,
+                       GridFunctions functions = GridFunctions::linear) {
+  return Body<2>(
+      std::make_unique<const Mesh<2>>(make_grid(low, {high[0] - low[0], high[1] - low[1]}, elements, functions)),
+      gravity);
 }
 
 /// Adds a block that fills the box low..high with counts[0] × counts[1] points, at rest and without stress. Call

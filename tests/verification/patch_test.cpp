@@ -14,9 +14,10 @@ constexpr double sigma_0 = -1.0;  // of a stiffness of 100
 
 /// A long bar of uniform stress between smooth walls, moving along itself through `cells` elements; returns the largest
 /// change of σ_xx over |σ_0| among points that no wave from the free ends has reached.
-double stress_noise(double cells, double points_per_cell, Quadrature quadrature) {
+double stress_noise(double cells, double points_per_cell, Quadrature quadrature,
+                    GridFunctions functions = GridFunctions::linear) {
   constexpr double E = 100, v = 5, length = 60;  // wave speed 10, elements of 1
-  auto body = on_grid({0, 0}, {80, 2}, {80, 2}, {0, 0});
+  auto body = on_grid({0, 0}, {80, 2}, {80, 2}, {0, 0}, functions);
   auto& bar = add_box(body, linear_elastic(E, 0.0), 1.0, {4, 0}, {4 + length, 2},
                       {static_cast<int>(length * points_per_cell), 4});
   for (int p = 0; p < bar.size(); ++p) {
@@ -65,6 +66,18 @@ TEST(Patch, CorrectedQuadratureCarriesUniformStressAcrossElementsWithAnyNumberOf
     EXPECT_LT(noise, 1e-6) << points_per_cell;
     std::printf("corrected quadrature, crossing noise over 4 elements: %.2e (%g points per element)\n", noise,
                 points_per_cell);
+  }
+}
+
+TEST(Patch, SmoothFunctionsCarryUniformStressAcrossElements) {
+  for (const auto functions : {GridFunctions::gimp, GridFunctions::b_spline}) {
+    for (const double points_per_cell : {2.0, 2.5, 3.0, 3.3}) {
+      for (const auto quadrature : {Quadrature::points, Quadrature::corrected}) {
+        std::printf("%s, %s: %.2e (%g points per element)\n", functions == GridFunctions::gimp ? "GIMP" : "B-splines",
+                    quadrature == Quadrature::points ? "points" : "corrected",
+                    stress_noise(4, points_per_cell, quadrature, functions), points_per_cell);
+      }
+    }
   }
 }
 

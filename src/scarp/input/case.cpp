@@ -95,10 +95,37 @@ StageInputOf<Dim> read_stage(const Node& node, const std::string& case_path) {
 template StageInputOf<2> read_stage<2>(const Node&, const std::string&);
 template StageInputOf<3> read_stage<3>(const Node&, const std::string&);
 
+namespace {
+
+GridFunctions read_shape(const Node& node) {
+  const auto word = text_in(node, "shape");
+  if (word == "linear") return GridFunctions::linear;
+  if (word == "gimp") return GridFunctions::gimp;
+  if (word == "b-spline") return GridFunctions::b_spline;
+  throw InputError("shape is \"linear\", \"gimp\" or \"b-spline\"", describe(node),
+                   "\"linear\" works on every mesh, the others on grids", node.position);
+}
+
+/// GIMP and B-splines are products of functions along the axes of a grid.
+template <int Dim>
+void check_shape(const CaseOf<Dim>& input) {
+  if (input.method.shape == GridFunctions::linear || input.mesh.grid) return;
+  throw InputError("GIMP and B-splines need a mesh that is a grid",
+                   fmt::format("shape = \"{}\" on the mesh of a file",
+                               input.method.shape == GridFunctions::gimp ? "gimp" : "b-spline"),
+                   "give [mesh] a grid, or leave shape out for linear functions", input.method.shape_position);
+}
+
+}  // namespace
+
 MethodInput read_method(const Node& node) {
   Table table(node, "[method]");
   MethodInput method;
   method.flip = table.number_or("flip", {0, 1}, method.flip);
+  if (const Node* shape = table.find("shape")) {
+    method.shape = read_shape(*shape);
+    method.shape_position = shape->position;
+  }
   if (const Node* quadrature = table.find("quadrature")) {
     const auto word = text_in(*quadrature, "quadrature");
     if (word != "corrected" && word != "points")
@@ -154,6 +181,7 @@ CaseOf<Dim> read_tables(Table& table, const std::string& path) {
   if (const Node* gravity = table.find("gravity")) result.gravity = vector_in<Dim>(*gravity, "gravity");
   result.mesh = read_mesh<Dim>(table.need("mesh", "add [mesh] with a file or a grid"), path);
   if (const Node* method = table.find("method")) result.method = read_method(*method);
+  check_shape(result);
   if (const Node* output = table.find("output")) result.output = read_output(*output);
   result.materials = read_all<MaterialInput>(table, "material", "the soil",
                                              [&](const Node& node) { return read_material(node, path); });

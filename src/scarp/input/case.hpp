@@ -12,6 +12,7 @@
 #include "scarp/base/polygon.hpp"
 #include "scarp/base/solid.hpp"
 #include "scarp/material/models.hpp"
+#include "scarp/mesh/mesh.hpp"
 #include "scarp/tensor/sym.hpp"
 
 namespace scarp::input {
@@ -110,7 +111,9 @@ using StageInput = StageInputOf<2>;
 
 /// [method]
 struct MethodInput {
-  double flip = 1.0;                 ///< share of FLIP in the velocity update; 1 is the report's
+  double flip = 1.0;  ///< share of FLIP in the velocity update; 1 is the report's
+  GridFunctions shape = GridFunctions::linear;
+  Position shape_position;
   bool corrected_quadrature = true;  ///< inside the soil; false: eq. 4 of the report as printed
   double safety = 0.5;               ///< of the critical time step
   double tolerance = 1e-4;           ///< of the stress integration, relative

@@ -6,6 +6,7 @@
 
 #include "scarp/base/error.hpp"
 #include "scarp/io/file.hpp"
+#include "scarp/mesh/grid.hpp"
 
 namespace scarp::io {
 namespace {
@@ -111,8 +112,11 @@ void write_points_vtu(const std::string& path, std::span<const double> positions
   write_whole(path, piece.file());
 }
 
+namespace {
+
+/// Corners and elements of a mesh.
 template <int Dim>
-void write_mesh_vtu(const std::string& path, const Mesh<Dim>& mesh) {
+void write_elements(const std::string& path, const Mesh<Dim>& mesh) {
   Piece piece(mesh.nodes.size(), mesh.types.size());
   std::vector<double> positions(3 * mesh.nodes.size(), 0.0);
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
@@ -126,6 +130,16 @@ void write_mesh_vtu(const std::string& path, const Mesh<Dim>& mesh) {
   for (const auto type : mesh.types) types.push_back(cell_type(type));
   cells(piece, connectivity, offsets, types);
   write_whole(path, piece.file());
+}
+
+}  // namespace
+
+template <int Dim>
+void write_mesh_vtu(const std::string& path, const Mesh<Dim>& mesh) {
+  if (!mesh.grid || mesh.grid->functions == GridFunctions::linear) return write_elements(path, mesh);
+  Vec<Dim> size;
+  for (int k = 0; k < Dim; ++k) size[k] = mesh.grid->spacing[k] * mesh.grid->elements[k];
+  write_elements(path, make_grid<Dim>(mesh.grid->origin, size, mesh.grid->elements));
 }
 
 template void write_mesh_vtu(const std::string&, const Mesh<2>&);

@@ -23,7 +23,8 @@ struct Field {
 /// fails or a field does not have components × points values.
 void write_points_vtu(const std::string& path, std::span<const double> positions, std::span<const Field> fields);
 
-/// Writes the mesh: triangles and quadrilaterals, or tetrahedra and hexahedra.
+/// Writes the mesh: triangles and quadrilaterals, or tetrahedra and hexahedra. Of a grid the elements with their
+/// corners, whatever its shape functions.
 template <int Dim>
 void write_mesh_vtu(const std::string& path, const Mesh<Dim>& mesh);
 

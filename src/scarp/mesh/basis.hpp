@@ -7,14 +7,20 @@
 //     inside(local, tol)     is that in the element, or beyond it by no more than tol parts of its height?
 //     shape(local, N)        N_i
 //     gradients(local, N, B) N_i and B_i = dN_i/dx
-//     integrals(V, g)        the element's volume V and g_i = ∫ B_i dV over it
-// all on T: double, or a SIMD batch with a point in each lane.
+//     integrals(V, g)        the element's volume V and g_i = ∫ B_i dV over it (where the basis is corrected)
+// all on T: double, or a SIMD batch with a point in each lane. And it says of itself
+//   B::has_domains           whether a point is a box: local(x, half) then takes half its edge [m], and what it returns
+//                            goes to shape() and gradients(); local(x), without it, still to inside()
+//   B::corrects              whether an element's points are made its quadrature (transfer/quadrature.hpp)
+// The element is a cell of the geometry; its local nodes, Mesh::element_nodes, are those of its functions.
 #pragma once
 
 #include <array>
 #include <concepts>
 
+#include "scarp/mesh/grid_bases.hpp"
 #include "scarp/mesh/mesh.hpp"
+#include "scarp/mesh/multilinear.hpp"
 #include "scarp/mesh/shapes.hpp"
 #include "scarp/tensor/batch.hpp"
 
@@ -25,48 +31,12 @@ concept Basis = requires {
   { B::dim } -> std::convertible_to<int>;
   { B::nodes } -> std::convertible_to<int>;
   { B::stores_local } -> std::convertible_to<bool>;
+  { B::has_domains } -> std::convertible_to<bool>;
+  { B::corrects } -> std::convertible_to<bool>;
   typename B::Cell;
 };
 
 namespace detail {
-
-/// Is local node i of a quadrilateral or hexahedron on the far side along axis d? (0,0), (1,0), (1,1), (0,1), and again
-/// above.
-constexpr bool far_side(int i, int d) {
-  return d == 0 ? (i & 3) == 1 || (i & 3) == 2 : d == 1 ? (i & 2) != 0 : i >= 4;
-}
-
-/// Products of 1 − s and s on the unit box.
-template <int Dim, class T>
-inline void multilinear(const std::array<T, Dim>& s, std::array<T, (1 << Dim)>& N) {
-  std::array<T, Dim> r;
-  for (int d = 0; d < Dim; ++d) r[d] = T(1.0) - s[d];
-  for (int i = 0; i < (1 << Dim); ++i) {
-    T product = far_side(i, 0) ? s[0] : r[0];
-    for (int d = 1; d < Dim; ++d) product = product * (far_side(i, d) ? s[d] : r[d]);
-    N[i] = product;
-  }
-}
-
-/// dN_i/ds_d times scale[d].
-template <int Dim, class T>
-inline void multilinear_gradients(const std::array<T, Dim>& s, const Vec<Dim>& scale,
-                                  std::array<std::array<T, Dim>, (1 << Dim)>& dN) {
-  for (int d = 0; d < Dim; ++d) {
-    std::array<T, Dim> far, near;
-    for (int k = 0; k < Dim; ++k) {
-      far[k] = s[k];
-      near[k] = T(1.0) - s[k];
-    }
-    far[d] = T(scale[d]);
-    near[d] = T(-scale[d]);
-    for (int i = 0; i < (1 << Dim); ++i) {
-      T product = far_side(i, 0) ? far[0] : near[0];
-      for (int k = 1; k < Dim; ++k) product = product * (far_side(i, k) ? far[k] : near[k]);
-      dN[i][d] = product;
-    }
-  }
-}
 
 /// Inverse of the matrix J[j][k] = dx_j/dξ_k; returns det J.
 template <class T>
@@ -88,61 +58,6 @@ inline T inverse(const std::array<std::array<T, 3>, 3>& J, std::array<std::array
 
 }  // namespace detail
 
-/// Multilinear functions on a structured grid. Local coordinates run from 0 to 1; the Jacobian is diagonal and the same
-/// everywhere, so that they follow straight from x.
-template <int Dim>
-struct GridLinear {
-  static constexpr int dim = Dim, nodes = 1 << Dim;
-  static constexpr bool stores_local = false;
-
-  class Cell {
-   public:
-    Cell(const Mesh<Dim>& mesh, int e)
-        : low_(mesh.nodes[mesh.connectivity[static_cast<std::size_t>(e) * nodes]]), spacing_(mesh.grid->spacing) {
-      for (int d = 0; d < Dim; ++d) inverse_[d] = 1 / spacing_[d];
-    }
-
-    template <class T>
-    std::array<T, Dim> local(const std::array<T, Dim>& x) const {
-      std::array<T, Dim> s;
-      for (int d = 0; d < Dim; ++d) s[d] = (x[d] - T(low_[d])) * T(inverse_[d]);
-      return s;
-    }
-
-    template <class T>
-    Mask<T> inside(const std::array<T, Dim>& s, double tolerance) const {
-      Mask<T> yes = (s[0] >= T(-tolerance)) && (s[0] <= T(1 + tolerance));
-      for (int d = 1; d < Dim; ++d) yes = yes && (s[d] >= T(-tolerance)) && (s[d] <= T(1 + tolerance));
-      return yes;
-    }
-
-    template <class T>
-    void shape(const std::array<T, Dim>& s, std::array<T, nodes>& N) const {
-      detail::multilinear<Dim>(s, N);
-    }
-
-    template <class T>
-    void gradients(const std::array<T, Dim>& s, std::array<T, nodes>& N,
-                   std::array<std::array<T, Dim>, nodes>& B) const {
-      detail::multilinear<Dim>(s, N);
-      detail::multilinear_gradients<Dim>(s, inverse_, B);
-    }
-
-    void integrals(double& V, std::array<Vec<Dim>, nodes>& g) const {
-      V = 1;
-      for (int d = 0; d < Dim; ++d) V *= spacing_[d];
-      for (int i = 0; i < nodes; ++i) {
-        for (int d = 0; d < Dim; ++d) {
-          g[i][d] = (detail::far_side(i, d) ? V : -V) * inverse_[d] * (2.0 / nodes);
-        }
-      }
-    }
-
-   private:
-    Vec<Dim> low_, spacing_, inverse_;
-  };
-};
-
 /// The linear functions of an element type of a mesh.
 template <class Shape>
 struct Linear;
@@ -153,7 +68,7 @@ namespace detail {
 template <int Dim>
 struct Simplex {
   static constexpr int dim = Dim, nodes = Dim + 1;
-  static constexpr bool stores_local = false;
+  static constexpr bool stores_local = false, has_domains = false, corrects = true;
 
   class Cell {
    public:
@@ -230,7 +145,7 @@ struct Simplex {
 template <int Dim>
 struct Box {
   static constexpr int dim = Dim, nodes = 1 << Dim;
-  static constexpr bool stores_local = true;
+  static constexpr bool stores_local = true, has_domains = false, corrects = true;
 
   class Cell {
    public:
@@ -372,12 +287,22 @@ struct Linear<T4> : detail::Simplex<3> {};
 template <>
 struct Linear<H8> : detail::Box<3> {};
 
-/// f(basis, slot) for slots first ... last - 1 of a list of elements.
+/// f(basis, slot, element) for slots first ... last - 1 of a list of elements. The choice is made once for all on a
+/// grid, once per element elsewhere.
 template <int Dim, class F>
 inline void with_basis(const Mesh<Dim>& mesh, const int* elements, int first, int last, F&& f) {
+  const auto all = [&](auto basis) {
+    for (int slot = first; slot < last; ++slot) f(basis, slot, elements[slot]);
+  };
   if (mesh.grid) {
-    for (int slot = first; slot < last; ++slot) f(GridLinear<Dim>{}, slot, elements[slot]);
-    return;
+    switch (mesh.grid->functions) {
+      case GridFunctions::linear:
+        return all(GridLinear<Dim>{});
+      case GridFunctions::gimp:
+        return all(GridGimp<Dim>{});
+      case GridFunctions::b_spline:
+        return all(GridSpline<Dim>{});
+    }
   }
   for (int slot = first; slot < last; ++slot) {
     const int e = elements[slot];

@@ -49,7 +49,30 @@ void build_around(Mesh<Dim>& mesh) {
   }
 }
 
+namespace {
+
+template <int Dim>
+double cell_size(const Grid<Dim>& grid) {
+  return *std::min_element(grid.spacing.begin(), grid.spacing.end());
+}
+
+/// Corners of elements are no nodes of theirs where a grid's functions are not linear.
+template <int Dim>
+bool has_no_corners(const Mesh<Dim>& mesh) {
+  return mesh.grid && mesh.grid->functions != GridFunctions::linear;
+}
+
+template <int Dim>
+double cell_volume(const Grid<Dim>& grid) {
+  double volume = 1;
+  for (const double edge : grid.spacing) volume *= edge;
+  return volume;
+}
+
+}  // namespace
+
 double element_size(const Mesh<2>& mesh, int e) {
+  if (has_no_corners(mesh)) return cell_size(*mesh.grid);
   return with_shape<2>(mesh.types[e], [&]<class Shape>(Shape) {
     const NodePositions<Shape> x = node_positions<Shape>(mesh, e);
     std::array<Vec<2>, Shape::nodes> edge;
@@ -69,6 +92,7 @@ double element_size(const Mesh<2>& mesh, int e) {
 }
 
 double element_size(const Mesh<3>& mesh, int e) {
+  if (has_no_corners(mesh)) return cell_size(*mesh.grid);
   return with_shape<3>(mesh.types[e], [&]<class Shape>(Shape) {
     const NodePositions<Shape> x = node_positions<Shape>(mesh, e);
     // A tetrahedron's corners span the same volume, and three of its faces each: all four faces are seen.
@@ -79,6 +103,7 @@ double element_size(const Mesh<3>& mesh, int e) {
 }
 
 double element_area(const Mesh<2>& mesh, int e) {
+  if (has_no_corners(mesh)) return cell_volume(*mesh.grid);
   const auto nodes = mesh.element_nodes(e);
   const Vec<2>& first = mesh.nodes[nodes[0]];
   double twice = 0;
@@ -88,6 +113,7 @@ double element_area(const Mesh<2>& mesh, int e) {
 }
 
 double element_volume(const Mesh<3>& mesh, int e) {
+  if (has_no_corners(mesh)) return cell_volume(*mesh.grid);
   if (mesh.types[e] == ElementType::T4) {
     const NodePositions<T4> x = node_positions<T4>(mesh, e);
     const Vec<3> u = detail::minus(x[1], x[0]), v = detail::minus(x[2], x[0]), w = detail::minus(x[3], x[0]);

@@ -35,12 +35,17 @@ class ElementsAround {
   std::array<int, (Dim == 2 ? 9 : 27) - 1> own_;  // set up to size_ only
 };
 
-/// A structured grid of equal rectangles or boxes, elements and nodes numbered x fastest, then y (, then z).
+/// The shape functions of a grid (mesh/grid_bases.hpp).
+enum class GridFunctions : std::uint8_t { linear, gimp, b_spline };
+
+/// A structured grid of equal rectangles or boxes, elements and nodes numbered x fastest, then y (, then z). The
+/// geometry is here; the nodes of its mesh are those of its functions, which need not be corners of elements.
 template <int Dim>
 struct Grid {
   Vec<Dim> origin{};
   Vec<Dim> spacing{};
   std::array<int, Dim> elements{};
+  GridFunctions functions = GridFunctions::linear;
 
   /// Place of element e along each axis.
   std::array<int, Dim> cell(int e) const {
@@ -53,7 +58,7 @@ struct Grid {
     return at;
   }
 
-  /// The elements that share a node with e, from its place alone.
+  /// The elements that share a corner with e, from its place alone.
   ElementsAround<Dim> around(int e) const {
     const std::array<int, Dim> at = cell(e);
     const int left = at[0] > 0 ? -1 : 0, right = at[0] + 1 < elements[0] ? 1 : 0;
@@ -78,14 +83,14 @@ struct Grid {
 };
 
 /// A finite element mesh as plain arrays. Local nodes run anticlockwise in the plane; in space as Gmsh and VTK have
-/// them, so that det dx/dxi is positive.
+/// them, so that det dx/dxi is positive. Those of a grid with other functions than linear ones: see grid_bases.hpp.
 template <int Dim>
 struct Mesh {
-  std::vector<Vec<Dim>> nodes;
+  std::vector<Vec<Dim>> nodes;     ///< what carries the shape functions: corners of elements, or control points
   std::vector<ElementType> types;  ///< one per element
   std::vector<int> offsets;        ///< elements + 1; local nodes of e are connectivity[offsets[e] ... offsets[e+1])
   std::vector<int> connectivity;
-  std::vector<double> size;         ///< one per element: its least height [m], for the critical time step
+  std::vector<double> size;         ///< one per element, for the critical time step [m]: its least height, or less (make_grid)
   std::vector<int> around_offsets;  ///< elements + 1; elements that share a node with e (e itself not) ...
   std::vector<int> around;          ///< ... ascending. Both empty in a grid, where they follow from the index
   std::map<std::string, std::vector<int>> node_sets;  ///< ascending; the sides (add_side_sets) and named groups
@@ -96,7 +101,7 @@ struct Mesh {
   std::span<const int> element_nodes(int e) const {
     return {connectivity.data() + offsets[e], static_cast<std::size_t>(offsets[e + 1] - offsets[e])};
   }
-  /// The elements that share a node with e, ascending, e itself not.
+  /// The elements that share a corner with e, ascending, e itself not.
   ElementsAround<Dim> elements_around(int e) const {
     if (grid) return grid->around(e);
     return ElementsAround<Dim>(

@@ -16,11 +16,11 @@ namespace scarp::run {
 namespace {
 
 template <int Dim>
-std::unique_ptr<const Mesh<Dim>> make_mesh(const input::MeshInputOf<Dim>& input) {
+std::unique_ptr<const Mesh<Dim>> make_mesh(const input::MeshInputOf<Dim>& input, GridFunctions shape) {
   if (input.file) return std::make_unique<const Mesh<Dim>>(read_gmsh<Dim>(*input.file));
   try {
     return std::make_unique<const Mesh<Dim>>(
-        make_grid<Dim>(input.grid->origin, input.grid->size, input.grid->elements));
+        make_grid<Dim>(input.grid->origin, input.grid->size, input.grid->elements, shape));
   } catch (const InputError& error) {
     throw InputError(error.problem(), error.value(), error.remedy(), input.position);
   }
@@ -58,15 +58,39 @@ std::vector<int> nodes_in(const Mesh<3>& mesh, const BoxOf<3>& box) {
   return nodes;
 }
 
+/// A side of the grid is held by its own control points; a line or plane between the sides by none.
+template <int Dim>
+void check_on_side(const Mesh<Dim>& mesh, const Vec<Dim>& low, const Vec<Dim>& high, const Position& position) {
+  if (!mesh.grid || mesh.grid->functions != GridFunctions::b_spline) return;
+  const auto& grid = *mesh.grid;
+  bool flat = false, between = false;
+  for (int j = 0; j < Dim; ++j) {
+    const double size = grid.spacing[j] * grid.elements[j], tolerance = 1e-9 * size;
+    if (std::abs(high[j] - low[j]) > tolerance) continue;
+    flat = true;
+    const double from_origin = low[j] - grid.origin[j];
+    between = between || std::min(std::abs(from_origin), std::abs(from_origin - size)) > tolerance;
+  }
+  if (!between && (flat || Dim == 3)) return;
+  throw InputError(Dim == 2 ? "with B-splines the line of a boundary lies on a side of the grid"
+                            : "with B-splines the box of a flat boundary lies on a side of the grid",
+                   fmt::format("({}) to ({})", fmt::join(low, ", "), fmt::join(high, ", ")),
+                   fmt::format("move the side of the grid there, or use shape = \"linear\" or \"gimp\"{}",
+                               Dim == 2 ? "" : ", or give a thick box, whose control points are then held"),
+                   position);
+}
+
 template <int Dim>
 std::vector<int> nodes_in_place(const Mesh<Dim>& mesh, const input::BoundaryInput& input) {
   if constexpr (Dim == 2) {
+    check_on_side(mesh, (*input.line)[0], (*input.line)[1], input.position);
     auto nodes = nodes_on(mesh, *input.line);
     if (!nodes.empty()) return nodes;
     throw InputError("no node of the mesh lies on the line of this boundary",
                      fmt::format("({}) to ({})", fmt::join((*input.line)[0], ", "), fmt::join((*input.line)[1], ", ")),
                      "give a line along edges of elements, or name a node set with nodes = \"...\"", input.position);
   } else {
+    check_on_side(mesh, input.box->low, input.box->high, input.position);
     auto nodes = nodes_in(mesh, *input.box);
     if (!nodes.empty()) return nodes;
     throw InputError("no node of the mesh lies in the box of this boundary",
@@ -145,7 +169,7 @@ void check_overlap(const std::vector<input::RegionInputOf<Dim>>& regions, const 
 
 template <int Dim>
 Body<Dim> build_body(const input::CaseOf<Dim>& input) {
-  Body<Dim> body(make_mesh(input.mesh), input.gravity);
+  Body<Dim> body(make_mesh(input.mesh, input.method.shape), input.gravity);
   std::vector<FillingOf<Dim>> fillings;
   std::vector<typename OverburdenOf<Dim>::Layer> layers;
   for (const auto& region : input.regions) {

@@ -41,9 +41,11 @@ void sum_points(Body<Basis::dim>& body, Quadrature choice, int slot, int e) {
     transfer::points_to_nodes<Basis>(cell, block.points, points_of(block, slot), sums);
   }
   transfer::Quadrature<Dim, Basis::nodes> quadrature;
-  if (choice == Quadrature::corrected && body.buffers.inside[slot]) {
-    quadrature = transfer::full_element<Basis>(cell, sums.volume(), sums.gradient());
-    transfer::correct<Basis>(sums, quadrature);
+  if constexpr (Basis::corrects) {
+    if (choice == Quadrature::corrected && body.buffers.inside[slot]) {
+      quadrature = transfer::full_element<Basis>(cell, sums.volume(), sums.gradient());
+      transfer::correct<Basis>(sums, quadrature);
+    }
   }
   const auto row = row_of(body, slot);
   body.buffers.weight[slot] = quadrature.weight;

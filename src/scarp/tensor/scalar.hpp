@@ -14,6 +14,9 @@ using Mask = decltype(T() < T());
 inline double sqrt(double x) {
   return std::sqrt(x);
 }
+inline double cbrt(double x) {
+  return std::cbrt(x);
+}
 inline double log(double x) {
   return std::log(x);
 }

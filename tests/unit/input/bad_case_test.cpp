@@ -45,6 +45,7 @@ TEST(BadCase, WrongTypes) {
       {"flip = 0.95", "@flip = [1]", "flip is a number", "a list", "write a number"},
       {"flip = 0.95", "@quadrature = 3", "quadrature is a text", "the number 3", "write it in quotes"},
       {"flip = 0.95", "@quadrature = \"exact\"", "quadrature is", "\"exact\"", "makes it exact"},
+      {"flip = 0.95", "@shape = \"cubic\"", "shape is \"linear\", \"gimp\" or", "\"cubic\"", "on grids"},
       {"flip = 0.95", "@leaving = \"ignore\"", "leaving is \"error\" or \"remove\"", "\"ignore\"", "choose"},
       {"flip = 0.95", "@largest_failures = 2.0", "is a whole number", "the number 2", "without a decimal point"},
       {"gravity = [0.0, -9.81]", "@gravity = -9.81", "gravity is a list of 2 numbers", "-9.81", "in brackets"},

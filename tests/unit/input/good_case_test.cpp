@@ -91,9 +91,19 @@ TEST(GoodCase, MethodAndOutput) {
   EXPECT_EQ(c.method.tolerance, standard.tolerance);
   EXPECT_TRUE(c.method.corrected_quadrature);
   EXPECT_FALSE(c.method.remove_leaving);
+  EXPECT_EQ(c.method.shape, GridFunctions::linear);
   EXPECT_EQ(c.output.every, 0.25);
   EXPECT_EQ(c.output.history, 0.0);
   EXPECT_EQ(c.output.colour, "displacement");
+}
+
+TEST(GoodCase, ShapeFunctions) {
+  const auto shape = [](const std::string& word) {
+    return read(replaced(minimal, "flip = 0.95", "shape = \"" + word + "\"")).method.shape;
+  };
+  EXPECT_EQ(shape("linear"), GridFunctions::linear);
+  EXPECT_EQ(shape("gimp"), GridFunctions::gimp);
+  EXPECT_EQ(shape("b-spline"), GridFunctions::b_spline);
 }
 
 // The keys that the minimal case leaves out.
