@@ -3,7 +3,7 @@ BUILD := build
 JOBS := $(shell nproc)
 RESULTS := results/slope_cut
 
-.PHONY: help demo test build bench bench-kernels bench-programs package figures deps format clean
+.PHONY: help demo test build bench bench-kernels bench-scaling bench-programs package figures deps format clean
 
 help:
 	@echo "make demo     cut a slope of structured clay and draw what happens, in $(RESULTS)"
@@ -39,6 +39,9 @@ bench-kernels: bench-programs
 	  --benchmark_enable_random_interleaving=true --benchmark_out=$(BUILD)/kernels.json > $(BUILD)/kernels.log
 	bench/table.py $(BUILD)/kernels.json
 
+bench-scaling: bench-programs
+	/usr/bin/python3 bench/scaling.py --programs $(BUILD)/bench $(if $(POINTS),--points $(POINTS))
+
 bench-programs:
 	@tools/install-deps.sh --bench
 	cmake --preset release -DSCARP_TESTS=OFF -DSCARP_BENCH=ON
@@ -50,6 +53,7 @@ package: deps
 	  cmake -S . -B build-package/$$arch -DCMAKE_BUILD_TYPE=Release -DSCARP_ARCH=$$arch -DSCARP_SHARED=ON -DSCARP_TESTS=OFF && \
 	  cmake --build build-package/$$arch --parallel $(JOBS) --target scarp || exit 1; done
 	cpack --config build-package/x86-64/CPackConfig.cmake -B build-package
+	/usr/bin/python3 tools/check_package.py build-package/scarp-*.tar.gz
 
 figures: build
 	for script in examples constants models work_precision kinks; do \

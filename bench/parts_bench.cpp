@@ -18,12 +18,17 @@ namespace {
 
 constexpr int points = 96000;
 
-enum class Ground { q4, mesh, t3, h8 };
+enum class Ground { q4, b_spline, mesh, t3, h8 };
 
 template <Ground kind>
 auto make_ground() {
   const AnyModel elastic = LinearElastic({1e4, 0.25});
   if constexpr (kind == Ground::q4) return run::build_body(grid_case<2>(points, elastic));
+  if constexpr (kind == Ground::b_spline) {
+    auto input = grid_case<2>(points, elastic);
+    input.method.shape = GridFunctions::b_spline;
+    return run::build_body(input);
+  }
   if constexpr (kind == Ground::mesh) return mesh_body(points, elastic, ElementShape::quadrilaterals);
   if constexpr (kind == Ground::t3) return mesh_body(points, elastic, ElementShape::triangles);
   if constexpr (kind == Ground::h8) return run::build_body(grid_case<3>(points, elastic));
@@ -93,6 +98,7 @@ void order(benchmark::State& loop, bool arrange) {
 }
 
 BENCHMARK(phases_of_step<Ground::q4>)->Name("step/q4");
+BENCHMARK(phases_of_step<Ground::b_spline>)->Name("step/b_spline");
 BENCHMARK(phases_of_step<Ground::mesh>)->Name("step/mesh");
 BENCHMARK(phases_of_step<Ground::t3>)->Name("step/t3");
 BENCHMARK(phases_of_step<Ground::h8>)->Name("step/h8");

@@ -24,6 +24,7 @@ GOALS = {
     "q4-elastic": (1.1, 0.0),
     "mesh-elastic": (1.5, 0.0),
     "mesh-elastic-t3": (1.5, 0.0),
+    "bspline-elastic": (2.2, 0.0),
     "q4-subloading": (1.1, 1.1),
     "slope-cut-failing": (1.4, 1.4),
     "h8-elastic": (3.2, 0.0),

@@ -25,7 +25,8 @@ constexpr double compression_rate = 0.01;  // [1/s]: 1e-6 of strain in a step
 template <int Dim>
 Times write_frame(const Body<Dim>& body, const std::string& path) {
   const Timer timer;
-  io::write_points_vtu(path, run::frame_positions(body), run::frame_fields(body));
+  const auto frame = run::frame_of(body);
+  io::write_points_vtu(path, frame.count, frame.positions, frame.fields);
   Times times;
   timer.read(times);
   return times;
@@ -160,6 +161,11 @@ Prepared prepare(const std::string& name, int points) {
   if (name == "q4-elastic") return steps_of([&] { return run::build_body(grid_case<2>(points, elastic)); });
   if (name == "mesh-elastic") return steps_of([&] { return mesh_body(points, elastic, ElementShape::quadrilaterals); });
   if (name == "mesh-elastic-t3") return steps_of([&] { return mesh_body(points, elastic, ElementShape::triangles); });
+  if (name == "bspline-elastic") {
+    auto input = grid_case<2>(points, elastic);
+    input.method.shape = GridFunctions::b_spline;
+    return steps_of([&] { return run::build_body(input); });
+  }
   if (name == "q4-subloading") return steps_of([&] { return run::build_body(grid_case<2>(points, soil())); });
   if (name == "h8-elastic") return steps_of([&] { return run::build_body(grid_case<3>(points, elastic)); });
   if (name == "h8-subloading") return steps_of([&] { return run::build_body(grid_case<3>(points, soil())); });

@@ -83,14 +83,14 @@ void check_on_side(const Mesh<Dim>& mesh, const Vec<Dim>& low, const Vec<Dim>& h
 template <int Dim>
 std::vector<int> nodes_in_place(const Mesh<Dim>& mesh, const input::BoundaryInput& input) {
   if constexpr (Dim == 2) {
-    check_on_side(mesh, (*input.line)[0], (*input.line)[1], input.position);
+    check_on_side<2>(mesh, (*input.line)[0], (*input.line)[1], input.position);
     auto nodes = nodes_on(mesh, *input.line);
     if (!nodes.empty()) return nodes;
     throw InputError("no node of the mesh lies on the line of this boundary",
                      fmt::format("({}) to ({})", fmt::join((*input.line)[0], ", "), fmt::join((*input.line)[1], ", ")),
                      "give a line along edges of elements, or name a node set with nodes = \"...\"", input.position);
   } else {
-    check_on_side(mesh, input.box->low, input.box->high, input.position);
+    check_on_side<3>(mesh, input.box->low, input.box->high, input.position);
     auto nodes = nodes_in(mesh, *input.box);
     if (!nodes.empty()) return nodes;
     throw InputError("no node of the mesh lies in the box of this boundary",
