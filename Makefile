@@ -3,14 +3,15 @@ BUILD := build
 JOBS := $(shell nproc)
 RESULTS := results/slope_cut
 
-.PHONY: help demo test validate build bench figures deps format clean
+.PHONY: help demo test validate build bench bench-kernels bench-scaling bench-programs package figures deps format clean
 
 help:
 	@echo "make demo     cut a slope of structured clay and draw what happens, in $(RESULTS)"
 	@echo "make test     build and run all tests"
 	@echo "make validate  run the verification problems on more meshes and draw them (minutes)"
-	@echo "make bench    measure the kernels, in $(BUILD)/bench.json"
+	@echo "make bench    measure whole steps, in $(BUILD)/bench.json; make bench-kernels their parts"
 	@echo "make build    build the program, $(BUILD)/bin/scarp"
+	@echo "make package  one program for every x86-64: build-package/*.deb and *.tar.gz"
 	@echo "make figures  draw the pictures of docs and examples/lab again (minutes)"
 	@echo "make format   put the C++ text into the project's format"
 	@echo "make clean    remove $(BUILD)"
@@ -35,13 +36,32 @@ build: deps
 	cmake --preset release -DSCARP_TESTS=OFF -DSCARP_BENCH=OFF
 	cmake --build --preset release --parallel $(JOBS)
 
-bench:
+# YARDSTICK=folder of step.cpp and law.cpp; CASES="q4-elastic ..."; POINTS="96000 1000000"; THREADS="1 2"; REPETITIONS=7
+bench: bench-programs
+	/usr/bin/python3 bench/steps.py --programs $(BUILD)/bench --out $(BUILD)/bench.json $(if $(YARDSTICK),--yardstick "$(YARDSTICK)") \
+	  $(if $(CASES),--cases $(CASES)) $(if $(POINTS),--points $(POINTS)) $(if $(THREADS),--threads $(THREADS)) \
+	  $(if $(REPETITIONS),--repetitions $(REPETITIONS))
+
+bench-kernels: bench-programs
+	OMP_NUM_THREADS=1 $(BUILD)/bin/scarp_bench --benchmark_repetitions=9 --benchmark_min_time=0.1 \
+	  --benchmark_enable_random_interleaving=true --benchmark_out=$(BUILD)/kernels.json > $(BUILD)/kernels.log
+	bench/table.py $(BUILD)/kernels.json
+
+bench-scaling: bench-programs
+	/usr/bin/python3 bench/scaling.py --programs $(BUILD)/bench $(if $(POINTS),--points $(POINTS))
+
+bench-programs:
 	@tools/install-deps.sh --bench
 	cmake --preset release -DSCARP_TESTS=OFF -DSCARP_BENCH=ON
-	cmake --build --preset release --parallel $(JOBS) --target scarp_bench
-	OMP_NUM_THREADS=1 $(BUILD)/bin/scarp_bench --benchmark_repetitions=9 --benchmark_min_time=0.1 \
-	  --benchmark_enable_random_interleaving=true --benchmark_out=$(BUILD)/bench.json > $(BUILD)/bench.log
-	bench/table.py $(BUILD)/bench.json
+	cmake --build --preset release --parallel $(JOBS) --target scarp_bench step_bench machine operations
+
+# One program for every x86-64, in build-package/*.deb and *.tar.gz: libscarp is there for each level of the processor.
+package: deps
+	for arch in x86-64 x86-64-v3 x86-64-v4; do \
+	  cmake -S . -B build-package/$$arch -DCMAKE_BUILD_TYPE=Release -DSCARP_ARCH=$$arch -DSCARP_SHARED=ON -DSCARP_TESTS=OFF && \
+	  cmake --build build-package/$$arch --parallel $(JOBS) --target scarp || exit 1; done
+	cpack --config build-package/x86-64/CPackConfig.cmake -B build-package
+	/usr/bin/python3 tools/check_package.py build-package/scarp-*.tar.gz
 
 figures: build
 	for script in examples constants models work_precision kinks; do \

@@ -23,8 +23,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_
   # AVX-512 it is g++'s own choice.
   target_compile_options(scarp_options INTERFACE -mmove-max=512 -mstore-max=512)
 endif()
-if(SCARP_NATIVE)
-  target_compile_options(scarp_options INTERFACE -march=native)
+target_compile_options(scarp_options INTERFACE -march=${SCARP_ARCH})
+if(SCARP_SHARED)
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(scarp_options INTERFACE -fno-semantic-interposition)  # nobody replaces functions of the library
 endif()
 if(SCARP_WERROR)
   target_compile_options(scarp_options INTERFACE -Werror)

@@ -50,7 +50,7 @@ class Commands(ProgramTest):
             self.assertIn(command, text)
         self.assertIn("--threads", self.scarp("run", "--help").stdout)
         self.assertIn("--panels", self.scarp("plot", "--help").stdout)
-        self.assertRegex(self.scarp("--version").stdout, r"^scarp \d+\.\d+\.\d+\n$")
+        self.assertRegex(self.scarp("--version").stdout, r"^scarp \d+\.\d+\.\d+ \(x86-64.*\)\n$")
 
     def test_wrong_command_lines(self):
         self.write("column.toml", COLUMN)

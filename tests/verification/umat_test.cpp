@@ -257,9 +257,9 @@ TEST(UmatInTheMpm, StateIsKeptAndShownByName) {
   const CaseFolder folder;
   const auto body = run::build_body(folder.read(kinematic, "initial = { epsp_eq = 0.25 }"));
   EXPECT_EQ(body.blocks[0].state.size(), 4u + 3u + 9u);
-  const auto fields = run::frame_fields(body);
-  const auto& alpha = std::get<std::vector<double>>(field(fields, "alpha").data);
-  const auto& equivalent = std::get<std::vector<double>>(field(fields, "epsp_eq").data);
+  const auto frame = run::frame_of(body);
+  const auto alpha = io::values_of<double>(field(frame.fields, "alpha"), frame.count);
+  const auto equivalent = io::values_of<double>(field(frame.fields, "epsp_eq"), frame.count);
   ASSERT_EQ(alpha.size(), 6 * equivalent.size());
   const std::array<double, 6> expected{1, 2, -3, 4, 0, 0};
   for (std::size_t i = 0; i < alpha.size(); ++i) EXPECT_NEAR(alpha[i], expected[i % 6], 1e-15);

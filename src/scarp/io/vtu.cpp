@@ -1,10 +1,10 @@
 #include "scarp/io/vtu.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 
-#include "scarp/base/error.hpp"
 #include "scarp/io/file.hpp"
 #include "scarp/mesh/grid.hpp"
 
@@ -21,7 +21,7 @@ constexpr const char* type_name() {
   return "UInt8";
 }
 
-/// Collects the XML of one piece and the bytes that follow it.
+/// Collects the XML of one piece; the bytes follow it when all arrays are known.
 class Piece {
  public:
   Piece(std::size_t points, std::size_t cells) {
@@ -34,34 +34,54 @@ class Piece {
   void open(const char* section) { xml_ += fmt::format("<{}>\n", section); }
   void close(const char* section) { xml_ += fmt::format("</{}>\n", section); }
 
-  template <class Value>
-  void array(const std::string& name, int components, std::span<const Value> values) {
-    xml_ += fmt::format(
-        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
-        type_name<Value>(), name, components, bytes_.size());
-    const std::uint64_t size = values.size_bytes();
-    append(&size, sizeof size);
-    append(values.data(), values.size_bytes());
+  void array(const Field& field, std::size_t count) {
+    std::visit(
+        [&]<class Value>(const Copy<Value>& copy) {
+          xml_ += fmt::format(
+              "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
+              type_name<Value>(), field.name, field.components, bytes_);
+          const std::size_t values = count * static_cast<std::size_t>(field.components);
+          bytes_ += sizeof(std::uint64_t) + values * sizeof(Value);
+          const auto components = static_cast<std::size_t>(field.components);
+          arrays_.push_back([=](WholeFile& file) { write(file, copy, count, components); });
+        },
+        field.copy);
   }
 
-  std::string file() {
-    return xml_ + "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" + bytes_ +
-           "\n</AppendedData>\n</VTKFile>\n";
+  void write_to(const std::string& path) const {
+    WholeFile file(path);
+    file.write(xml_);
+    file.write("</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
+    for (const auto& write_array : arrays_) write_array(file);
+    file.write("\n</AppendedData>\n</VTKFile>\n");
+    file.finish();
   }
 
  private:
-  void append(const void* data, std::size_t size) { bytes_.append(static_cast<const char*>(data), size); }
+  template <class Value>
+  static void write(WholeFile& file, const Copy<Value>& copy, std::size_t count, std::size_t components) {
+    constexpr std::size_t chunk = 4096;
+    const std::uint64_t size = count * components * sizeof(Value);
+    file.write(&size, sizeof size);
+    std::vector<Value> values(std::min(count, chunk) * components);
+    for (std::size_t first = 0; first < count; first += chunk) {
+      const std::size_t last = std::min(count, first + chunk);
+      copy(first, last, values.data());
+      file.write(values.data(), (last - first) * components * sizeof(Value));
+    }
+  }
 
-  std::string xml_, bytes_;
+  std::string xml_;
+  std::size_t bytes_ = 0;
+  std::vector<std::function<void(WholeFile&)>> arrays_;
 };
 
-void cells(Piece& piece, std::span<const std::int64_t> connectivity, std::span<const std::int64_t> offsets,
-           std::span<const std::uint8_t> types) {
-  piece.open("Cells");
-  piece.array("connectivity", 1, connectivity);
-  piece.array("offsets", 1, offsets);
-  piece.array("types", 1, types);
-  piece.close("Cells");
+/// value(i) for each entry.
+template <class Value, class F>
+Field field_of(const char* name, F value) {
+  return {name, 1, Copy<Value>([value](std::size_t first, std::size_t last, Value* values) {
+            for (std::size_t i = first; i < last; ++i) values[i - first] = static_cast<Value>(value(i));
+          })};
 }
 
 /// VTK's number of a cell type; its local nodes run as ours do.
@@ -80,36 +100,22 @@ std::uint8_t cell_type(ElementType type) {
 
 }  // namespace
 
-void write_points_vtu(const std::string& path, std::span<const double> positions, std::span<const Field> fields) {
-  const std::size_t count = positions.size() / 3;
+void write_points_vtu(const std::string& path, std::size_t count, const Field& positions,
+                      std::span<const Field> fields) {
   Piece piece(count, count);
   piece.open("PointData");
-  for (const auto& field : fields) {
-    std::visit(
-        [&]<class Value>(const std::vector<Value>& data) {
-          if (data.size() != count * static_cast<std::size_t>(field.components)) {
-            throw RunError(
-                fmt::format("the field {} does not fit the points", field.name),
-                fmt::format("{} values for {} points of {} components", data.size(), count, field.components),
-                "this is an error of the program");
-          }
-          piece.array(field.name, field.components, std::span<const Value>(data));
-        },
-        field.data);
-  }
+  for (const auto& field : fields) piece.array(field, count);
   piece.close("PointData");
   piece.open("Points");
-  piece.array("Points", 3, positions);
+  piece.array(positions, count);
   piece.close("Points");
-  std::vector<std::int64_t> connectivity(count), offsets(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    connectivity[i] = static_cast<std::int64_t>(i);
-    offsets[i] = static_cast<std::int64_t>(i + 1);
-  }
-  constexpr std::uint8_t vertex = 1;
-  const std::vector<std::uint8_t> types(count, vertex);
-  cells(piece, connectivity, offsets, types);
-  write_whole(path, piece.file());
+  constexpr int vertex = 1;
+  piece.open("Cells");
+  piece.array(field_of<std::int64_t>("connectivity", [](std::size_t i) { return i; }), count);
+  piece.array(field_of<std::int64_t>("offsets", [](std::size_t i) { return i + 1; }), count);
+  piece.array(field_of<std::uint8_t>("types", [](std::size_t) { return vertex; }), count);
+  piece.close("Cells");
+  piece.write_to(path);
 }
 
 namespace {
@@ -118,18 +124,21 @@ namespace {
 template <int Dim>
 void write_elements(const std::string& path, const Mesh<Dim>& mesh) {
   Piece piece(mesh.nodes.size(), mesh.types.size());
-  std::vector<double> positions(3 * mesh.nodes.size(), 0.0);
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-    for (int k = 0; k < Dim; ++k) positions[3 * n + k] = mesh.nodes[n][k];
   piece.open("Points");
-  piece.array("Points", 3, std::span<const double>(positions));
+  piece.array({"Points", 3, Copy<double>([&mesh](std::size_t first, std::size_t last, double* values) {
+                 for (std::size_t n = first; n < last; ++n)
+                   for (int k = 0; k < 3; ++k) *values++ = k < Dim ? mesh.nodes[n][k] : 0.0;
+               })},
+              mesh.nodes.size());
   piece.close("Points");
-  const std::vector<std::int64_t> connectivity(mesh.connectivity.begin(), mesh.connectivity.end());
-  const std::vector<std::int64_t> offsets(mesh.offsets.begin() + 1, mesh.offsets.end());
-  std::vector<std::uint8_t> types;
-  for (const auto type : mesh.types) types.push_back(cell_type(type));
-  cells(piece, connectivity, offsets, types);
-  write_whole(path, piece.file());
+  const std::size_t elements = mesh.types.size();
+  piece.open("Cells");
+  piece.array(field_of<std::int64_t>("connectivity", [&](std::size_t i) { return mesh.connectivity[i]; }),
+              mesh.connectivity.size());
+  piece.array(field_of<std::int64_t>("offsets", [&](std::size_t e) { return mesh.offsets[e + 1]; }), elements);
+  piece.array(field_of<std::uint8_t>("types", [&](std::size_t e) { return cell_type(mesh.types[e]); }), elements);
+  piece.close("Cells");
+  piece.write_to(path);
 }
 
 }  // namespace

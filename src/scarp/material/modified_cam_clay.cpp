@@ -59,8 +59,7 @@ ModifiedCamClay::State<double, N> ModifiedCamClay::initial_state(const Sym<doubl
                                                                  const Values& keys,
                                                                  std::vector<Problem>& problems) const {
   State<double, N> s{sigma, Sym<double, N>::zero(), 0.0};
-  auto demand = [&](bool holds, const std::string& key, const std::string& what, double value,
-                    const std::string& remedy) {
+  auto demand = [&](bool holds, const char* key, const char* what, double value, const char* remedy) {
     if (!holds) problems.push_back({key, what, fmt::format("{:.6g}", value), remedy});
   };
   const double p = mean(sigma), through = p > 0 ? p_c_through(sigma) : 0.0;

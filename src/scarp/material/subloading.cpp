@@ -120,8 +120,8 @@ Subloading::State<double, N> Subloading::initial_state(const Sym<double, N>& sig
                                                        std::vector<Problem>& problems) const {
   State<double, N> s{sigma, Sym<double, N>::zero(), Sym<double, N>::zero(), Sym<double, N>::zero(), 0.0, 1.0};
   const double p = mean(sigma);
-  auto demand = [&](bool holds, const std::string& key, const std::string& what, double value,
-                    const std::string& remedy) {
+  // No text is made where all is well: this runs for every point.
+  auto demand = [&](bool holds, const char* key, const char* what, double value, const char* remedy) {
     if (!holds) problems.push_back({key, what, fmt::format("{:.6g}", value), remedy});
   };
 

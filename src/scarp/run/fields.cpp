@@ -2,11 +2,13 @@
 
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <map>
-#include <numeric>
+#include <memory>
+#include <string>
+#include <utility>
 
+#include "scarp/exec/parallel.hpp"
 #include "scarp/exec/stress_update.hpp"
 
 namespace scarp::run {
@@ -18,15 +20,21 @@ struct Slot {
   int block, index;
 };
 
+using Places = std::vector<Slot>;
+
 template <int Dim>
-std::vector<Slot> slots(const Body<Dim>& body) {
-  std::vector<Slot> all;
+Places places_of(const Body<Dim>& body) {
+  constexpr int nowhere = -1;
+  Places all(static_cast<std::size_t>(body.point_count()), {nowhere, 0});
   for (int b = 0; b < static_cast<int>(body.blocks.size()); ++b) {
-    for (int i = 0; i < body.blocks[b].size(); ++i) all.push_back({b, i});
+    const auto& id = body.blocks[b].points.id;
+    for (std::size_t i = 0; i < id.size(); ++i) {
+      const auto number = static_cast<std::size_t>(id[i]);
+      if (number >= all.size()) all.resize(number + 1, {nowhere, 0});
+      all[number] = {b, static_cast<int>(i)};
+    }
   }
-  std::sort(all.begin(), all.end(), [&](const Slot& x, const Slot& y) {
-    return body.blocks[x.block].points.id[x.index] < body.blocks[y.block].points.id[y.index];
-  });
+  std::erase_if(all, [](const Slot& at) { return at.block == nowhere; });  // of points that were taken out
   return all;
 }
 
@@ -34,68 +42,69 @@ std::vector<Slot> slots(const Body<Dim>& body) {
 template <int Dim>
 class Collector {
  public:
-  explicit Collector(const Body<Dim>& body) : body_(body), places_(slots(body)) {}
+  explicit Collector(const Body<Dim>& body) : body_(body), places_(std::make_shared<const Places>(places_of(body))) {}
+
+  std::size_t count() const { return places_->size(); }
+
+  /// value(block number, i) → Value
+  template <class Value, class F>
+  void add(const std::string& name, F value) {
+    fields_.push_back(field<Value>(name, 1, [value](int b, int i, int) { return value(b, i); }));
+  }
 
   /// value(points, i) → double
   template <class F>
-  void scalar(const std::string& name, F&& value) {
-    std::vector<double> data;
-    data.reserve(places_.size());
-    for (const auto& at : places_) data.push_back(value(body_.blocks[at.block].points, at.index));
-    fields_.push_back({name, 1, std::move(data)});
+  void scalar(const std::string& name, F value) {
+    add<double>(name, [this_body = &body_, value](int b, int i) { return value(this_body->blocks[b].points, i); });
   }
 
   /// component(points, i, j) → double
   template <class F>
-  void vector(const std::string& name, F&& component) {
-    std::vector<double> data;
-    data.reserve(3 * places_.size());
-    for (const auto& at : places_) {
-      const auto& points = body_.blocks[at.block].points;
-      for (int j = 0; j < 3; ++j) data.push_back(j < Dim ? component(points, at.index, j) : 0.0);
-    }
-    fields_.push_back({name, 3, std::move(data)});
+  io::Field vector(const std::string& name, F component) const {
+    return field<double>(name, 3, [this_body = &body_, component](int b, int i, int j) {
+      return j < Dim ? component(this_body->blocks[b].points, i, j) : 0.0;
+    });
   }
 
   void flag(const std::string& name, PointFlag bit) {
-    std::vector<std::uint8_t> data;
-    for (const auto& at : places_) data.push_back((body_.blocks[at.block].points.flags[at.index] & bit) ? 1 : 0);
-    fields_.push_back({name, 1, std::move(data)});
+    add<std::uint8_t>(
+        name, [this_body = &body_, bit](int b, int i) { return (this_body->blocks[b].points.flags[i] & bit) ? 1 : 0; });
   }
 
-  /// value(block, i) → int
+  /// A symmetric tensor from Mandel components; component(block number, i, c) → double
   template <class F>
-  void integer(const std::string& name, F&& value) {
-    std::vector<std::int32_t> data;
-    for (const auto& at : places_) data.push_back(value(at.block, at.index));
-    fields_.push_back({name, 1, std::move(data)});
-  }
-
-  /// A symmetric tensor from Mandel components; component(block, i, c) → double
-  template <class F>
-  void tensor(const std::string& name, F&& component) {
-    std::vector<double> data;
-    data.reserve(6 * places_.size());
-    for (const auto& at : places_) {
-      const Block<Dim>& block = body_.blocks[at.block];
-      for (int c = 0; c < 6; ++c) {
-        const double once = c < 3 ? 1.0 : 1.0 / sqrt2;
-        data.push_back(c < sym_size<Dim> ? once * component(block, at.index, c) : 0.0);
-      }
-    }
-    fields_.push_back({name, 6, std::move(data)});
+  void tensor(const std::string& name, F component) {
+    fields_.push_back(field<double>(name, 6, [component](int b, int i, int c) {
+      const double once = c < 3 ? 1.0 : 1.0 / sqrt2;
+      return c < sym_size<Dim> ? once * component(b, i, c) : 0.0;
+    }));
   }
 
   /// What the models of the blocks declare; a name that several models have becomes one field.
   void model_fields();
 
+  void add(io::Field&& field) { fields_.push_back(std::move(field)); }
   std::vector<io::Field> take() { return std::move(fields_); }
 
  private:
   static constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
+  /// value(block number, i, component) → Value
+  template <class Value, class F>
+  io::Field field(const std::string& name, int components, F value) const {
+    return {name, components,
+            io::Copy<Value>([places = places_, components, value](std::size_t first, std::size_t last, Value* to) {
+              for (std::size_t k = first; k < last; ++k) {
+                const Slot at = (*places)[k];
+                for (int c = 0; c < components; ++c) *to++ = static_cast<Value>(value(at.block, at.index, c));
+              }
+            })};
+  }
+
+  void derived_fields(const std::map<std::string, std::vector<int>>& derived);
+
   const Body<Dim>& body_;
-  std::vector<Slot> places_;
+  std::shared_ptr<const Places> places_;
   std::vector<io::Field> fields_;
 };
 
@@ -117,34 +126,43 @@ void Collector<Dim>::model_fields() {
       derived.try_emplace(description.derived[k].key, nowhere).first->second[b] = static_cast<int>(k);
     }
   }
-  auto column_of = [&](const std::vector<int>& columns, const Block<Dim>& block) {
-    return columns[&block - body_.blocks.data()];
-  };
   for (const auto& [name, entry] : state) {
-    const auto& columns = entry.second;
+    const auto value = [body = &body_, columns = entry.second](int b, int i, int c) {
+      return columns[b] < 0 ? nothing : body->blocks[b].state[columns[b] + c][i];
+    };
     if (entry.first == FieldKind::tensor) {
-      tensor(name, [&](const Block<Dim>& block, int i, int c) {
-        const int first = column_of(columns, block);
-        return first < 0 ? nothing : block.state[first + c][i];
-      });
+      tensor(name, value);
     } else {
-      std::vector<double> data;
-      for (const auto& at : places_) {
-        data.push_back(columns[at.block] < 0 ? nothing : body_.blocks[at.block].state[columns[at.block]][at.index]);
-      }
-      fields_.push_back({name, 1, std::move(data)});
+      add<double>(name, [value](int b, int i) { return value(b, i, 0); });
     }
   }
-  std::map<std::string, std::vector<double>> values;
-  for (const auto& at : places_) {
+  derived_fields(derived);
+}
+
+/// A point's derived quantities come all at once from its state: taken now, for all points. `derived` has for each name
+/// its place among those of each block's model, or -1.
+template <int Dim>
+void Collector<Dim>::derived_fields(const std::map<std::string, std::vector<int>>& derived) {
+  const std::size_t names = derived.size();
+  const auto values = std::make_shared<std::vector<double>>(names * count(), nothing);
+  exec::for_each(static_cast<int>(names > 0 ? count() : 0), [&](int k) {
+    const Slot at = (*places_)[k];
     exec::with_state(body_.blocks[at.block], at.index, [&](const auto& model, const auto& s) {
       const auto of_point = model.derived(s);
+      double* to = values->data() + names * static_cast<std::size_t>(k);
       for (const auto& [name, index] : derived) {
-        values[name].push_back(index[at.block] < 0 ? nothing : of_point[index[at.block]]);
+        if (index[at.block] >= 0) *to = of_point[index[at.block]];
+        ++to;
       }
     });
+  });
+  std::size_t number = 0;
+  for (const auto& [name, index] : derived) {
+    add({name, 1, io::Copy<double>([values, names, number](std::size_t first, std::size_t last, double* to) {
+           for (std::size_t k = first; k < last; ++k) *to++ = (*values)[names * k + number];
+         })});
+    ++number;
   }
-  for (auto& [name, data] : values) fields_.push_back({name, 1, std::move(data)});
 }
 
 template <int Dim>
@@ -162,23 +180,14 @@ double deviatoric_stress_of(const Points<Dim>& points, int i) {
 }  // namespace
 
 template <int Dim>
-std::vector<double> frame_positions(const Body<Dim>& body) {
-  std::vector<double> positions;
-  for (const auto& at : slots(body)) {
-    const auto& points = body.blocks[at.block].points;
-    for (int j = 0; j < 3; ++j) positions.push_back(j < Dim ? points.x[j][at.index] : 0.0);
-  }
-  return positions;
-}
-
-template <int Dim>
-std::vector<io::Field> frame_fields(const Body<Dim>& body) {
+Frame frame_of(const Body<Dim>& body) {
   Collector<Dim> collect(body);
-  collect.integer("id", [&](int b, int i) { return body.blocks[b].points.id[i]; });
-  collect.integer("region", [](int b, int) { return b; });
-  collect.vector("displacement", [](const Points<Dim>& p, int i, int j) { return p.u(j, i); });
-  collect.vector("velocity", [](const Points<Dim>& p, int i, int j) { return p.v[j][i]; });
-  collect.tensor("stress", [](const Block<Dim>& block, int i, int c) { return -block.points.sigma[c][i]; });
+  const auto* blocks = body.blocks.data();
+  collect.template add<std::int32_t>("id", [=](int b, int i) { return blocks[b].points.id[i]; });
+  collect.template add<std::int32_t>("region", [](int b, int) { return b; });
+  collect.add(collect.vector("displacement", [](const Points<Dim>& p, int i, int j) { return p.u(j, i); }));
+  collect.add(collect.vector("velocity", [](const Points<Dim>& p, int i, int j) { return p.v[j][i]; }));
+  collect.tensor("stress", [=](int b, int i, int c) { return -blocks[b].points.sigma[c][i]; });
   collect.scalar("p", mean_stress<Dim>);
   collect.scalar("q", deviatoric_stress_of<Dim>);
   collect.scalar("eps_v", [](const Points<Dim>& p, int i) { return -std::log(p.volume[i] / p.initial_volume[i]); });
@@ -186,17 +195,16 @@ std::vector<io::Field> frame_fields(const Body<Dim>& body) {
   collect.scalar("volume", [](const Points<Dim>& p, int i) { return p.volume[i]; });
   collect.scalar("density", [](const Points<Dim>& p, int i) { return p.mass[i] / p.volume[i]; });
   collect.model_fields();
-  collect.integer("substeps", [&](int b, int i) { return static_cast<int>(body.blocks[b].points.substeps[i]); });
+  collect.template add<std::int32_t>("substeps", [=](int b, int i) { return blocks[b].points.substeps[i]; });
   collect.flag("separated", flag_separated);
   collect.flag("on_floor", flag_on_floor);
   collect.flag("corrected", flag_corrected);
   collect.flag("failed", flag_failed);
-  return collect.take();
+  auto positions = collect.vector("Points", [](const Points<Dim>& p, int i, int j) { return p.x[j][i]; });
+  return {collect.count(), std::move(positions), collect.take()};
 }
 
-template std::vector<double> frame_positions<2>(const Body<2>&);
-template std::vector<double> frame_positions<3>(const Body<3>&);
-template std::vector<io::Field> frame_fields<2>(const Body<2>&);
-template std::vector<io::Field> frame_fields<3>(const Body<3>&);
+template Frame frame_of<2>(const Body<2>&);
+template Frame frame_of<3>(const Body<3>&);
 
 }  // namespace scarp::run

@@ -1,7 +1,7 @@
 // The arrays of an output frame, from the body and what its models declare of themselves.
 #pragma once
 
-#include <string>
+#include <cstddef>
 #include <vector>
 
 #include "scarp/io/vtu.hpp"
@@ -9,14 +9,17 @@
 
 namespace scarp::run {
 
-/// Positions, three coordinates a point, in the order of the points' numbers.
-template <int Dim>
-std::vector<double> frame_positions(const Body<Dim>& body);
+/// Reads the body when it is written: the body must stay as it is until then.
+struct Frame {
+  std::size_t count;              ///< of the points
+  io::Field positions;            ///< three coordinates
+  std::vector<io::Field> fields;  ///< see frame_of()
+};
 
-/// All fields of a frame in the same order, compression positive: motion, stress, strain, the models' state and derived
-/// quantities (NaN where a point's model does not have one), flags and counts. Tensors have VTK's six components XX YY
-/// ZZ XY YZ XZ.
+/// The points in the order of their numbers with all their fields, compression positive: motion, stress, strain, the
+/// models' state and derived quantities (NaN where a point's model does not have one), flags and counts. Tensors have
+/// VTK's six components XX YY ZZ XY YZ XZ.
 template <int Dim>
-std::vector<io::Field> frame_fields(const Body<Dim>& body);
+Frame frame_of(const Body<Dim>& body);
 
 }  // namespace scarp::run

@@ -150,7 +150,8 @@ void Results<Dim>::frame(const Body<Dim>& body, double time) {
   if (time == writers_->last_frame) return;
   writers_->last_frame = time;
   const auto name = frame_name(writers_->frames++);
-  io::write_points_vtu(folder_ + "/" + name, frame_positions(body), frame_fields(body));
+  const Frame frame = frame_of(body);
+  io::write_points_vtu(folder_ + "/" + name, frame.count, frame.positions, frame.fields);
   writers_->collection.add(time, name);
 }
 

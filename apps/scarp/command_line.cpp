@@ -1,0 +1,106 @@
+// The command line of scarp: parses arguments and calls run/. Exit status: 0 done, 2 bad input, 3 the computation
+// failed, 130 interrupted.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "command_line.hpp"
+#include "commands.hpp"
+#include "scarp/base/error.hpp"
+#include "scarp/base/version.hpp"
+#include "scarp/exec/parallel.hpp"
+#include "scarp/run/run.hpp"
+
+namespace {
+
+constexpr int bad_input = 2, failed = 3, interrupted = 130;
+
+struct Arguments {
+  std::string case_file, model;
+  std::vector<std::string> overrides;
+  std::string curve, picture;
+  scarp::run::Options options;
+};
+
+int run(const Arguments& arguments) {
+  const auto input = scarp::input::read_any_case(arguments.case_file, arguments.overrides);
+  auto options = arguments.options;
+  if (options.out.empty()) options.out = std::filesystem::path(arguments.case_file).stem().string() + ".out";
+  const auto outcome = scarp::run::run_case(input, options);
+  if (!options.quiet) fmt::print("results in {}\n", options.out);
+  return outcome == scarp::run::Outcome::interrupted ? interrupted : 0;
+}
+
+int check(const Arguments& arguments) {
+  fmt::print("{}", scarp::run::check_case(scarp::input::read_any_case(arguments.case_file, arguments.overrides)));
+  return 0;
+}
+
+int lab(const Arguments& arguments) {
+  const auto input = scarp::input::read_lab_test(arguments.case_file, arguments.overrides);
+  return scarp::app::run_lab(input, arguments.curve, arguments.picture);
+}
+
+int parse_and_call(int argc, char** argv) {
+  CLI::App app{"scarp: large-deformation failure of soil by the material point method"};
+  app.set_version_flag("--version", fmt::format("scarp {} ({})", scarp::version, scarp::instruction_set()));
+  app.require_subcommand(1);
+  Arguments arguments;
+
+  auto* run_command = app.add_subcommand("run", "Run a case");
+  run_command->add_option("CASE", arguments.case_file, "case file (TOML)")->required();
+  run_command->add_option("--out", arguments.options.out, "folder of the results (CASE without .toml, with .out)");
+  run_command->add_option("--threads", arguments.options.threads, "number of threads (all that the system gives)")
+      ->check(CLI::Range(1, 1024));
+  run_command->add_flag("--profile", arguments.options.profile, "print at the end how the time of the steps was spent");
+  run_command->add_flag("--quiet", arguments.options.quiet, "no progress");
+  auto* check_command = app.add_subcommand("check", "Read a case, build mesh and points, and describe them");
+  check_command->add_option("CASE", arguments.case_file, "case file (TOML)")->required();
+  auto* lab_command = app.add_subcommand("lab", "Run a laboratory test on one stress point");
+  lab_command->add_option("TEST", arguments.case_file, "test file (TOML)")->required();
+  lab_command->add_option("--out", arguments.curve, "file of the curve, CSV (standard output, unless --plot is given)");
+  lab_command->add_option("--plot", arguments.picture, "picture of the curve, such as curve.png");
+  for (auto* command : {run_command, check_command, lab_command}) {
+    command
+        ->add_option("--set", arguments.overrides, "key=value: change one value of the case, e.g. stage.cut.duration=4")
+        ->allow_extra_args(false);
+  }
+  auto* models_command = app.add_subcommand("models", "List the constitutive models, or explain one");
+  models_command->add_option("NAME", arguments.model, "name of a model");
+  auto* plot_command = app.add_subcommand("plot", "Draw the results of a run (`scarp plot --help` lists the options)");
+  plot_command->prefix_command();
+  plot_command->set_help_flag();
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : bad_input;
+  }
+  if (run_command->parsed()) return run(arguments);
+  if (check_command->parsed()) return check(arguments);
+  if (lab_command->parsed()) return lab(arguments);
+  if (models_command->parsed()) {
+    scarp::app::print_models(arguments.model);
+    return 0;
+  }
+  return scarp::app::run_script("plot.py", plot_command->remaining());
+}
+
+}  // namespace
+
+int scarp_main(int argc, char** argv) {
+  scarp::exec::wait_politely(argv);
+  try {
+    return parse_and_call(argc, argv);
+  } catch (const scarp::InputError& error) {
+    fmt::print(stderr, "scarp: {}\n", error.what());
+    return bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "scarp: {}\n", error.what());
+    return failed;
+  }
+}

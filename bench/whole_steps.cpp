@@ -1,0 +1,176 @@
+#include "whole_steps.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+#include "ground.hpp"
+#include "scarp/base/error.hpp"
+#include "scarp/io/vtu.hpp"
+#include "scarp/run/build.hpp"
+#include "scarp/run/fields.hpp"
+#include "scarp/run/stage.hpp"
+#include "soil.hpp"
+
+namespace scarp::bench {
+namespace {
+
+constexpr double time_step = 1e-4;         // [s]; points stay in their elements for hundreds of steps
+constexpr double compression_rate = 0.01;  // [1/s]: 1e-6 of strain in a step
+
+template <int Dim>
+Times write_frame(const Body<Dim>& body, const std::string& path) {
+  const Timer timer;
+  const auto frame = run::frame_of(body);
+  io::write_points_vtu(path, frame.count, frame.positions, frame.fields);
+  Times times;
+  timer.read(times);
+  return times;
+}
+
+/// make() gives the body.
+template <class Make>
+Prepared steps_of(Make&& make) {
+  Prepared prepared;
+  const Timer since_start;
+  const auto body = std::make_shared<decltype(make())>(make());
+  since_start.read(prepared.start);
+  compress(*body, compression_rate);
+  if (!(time_step < 0.5 * critical_time_step(*body))) throw std::logic_error("the benchmark's time step is too long");
+  const int points = body->point_count(), steps = std::clamp(4'000'000 / points, 4, 4000);
+  for (int k = 0; k < 3; ++k) advance(*body, time_step, {});  // buffers and caches find their size
+  prepared.points = points;
+  prepared.elements = body->active.size();
+  prepared.write_frame = [body](const std::string& path) { return write_frame(*body, path); };
+  prepared.repeat = [body, steps, points](bool profile) {
+    StepSettings settings;
+    settings.profile = profile;
+    Repetition result;
+    const Timer timer;
+    for (int k = 0; k < steps; ++k) {
+      const auto books = advance(*body, time_step, settings);
+      result.substeps += books.stress.substeps;
+      result.changed_element += books.changed_element;
+      for (int i = 0; i < phases; ++i) result.phase_seconds[i] += books.seconds[i];
+    }
+    timer.read(result);
+    result.steps = steps;
+    result.point_steps = static_cast<std::int64_t>(steps) * points;
+    return result;
+  };
+  return prepared;
+}
+
+/// A folder that is gone with its owner.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() : path_(std::filesystem::temp_directory_path() / fmt::format("scarp-bench-{}", getpid())) {}
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// examples/slope_cut as it stands, without output: at rest, ready to be cut any number of times. A cut writes one
+/// frame after its first step; that is some milliseconds of many seconds.
+class SlopeCut {
+ public:
+  SlopeCut()
+      : input_(without_output(input::read_case(SCARP_SOURCE_DIR "/examples/slope_cut/slope_cut.toml"))),
+        body_(run::build_body(input_)),
+        results_(input_, folder_.path(), body_),
+        progress_(true) {
+    book_motion(body_, ledger_.last);
+    ledger_.initial_mass = ledger_.last.mass;
+    run::StageRecord record;
+    run_stage(0, false, record);
+    at_rest_ = body_.blocks;
+    ledger_at_rest_ = ledger_;
+  }
+
+  const Body<2>& body() const { return body_; }
+
+  Repetition cut(bool profile) {
+    body_.blocks = at_rest_;
+    ledger_ = ledger_at_rest_;
+    reorder(body_);
+    body_.out_of_place = 0;
+    const auto before = ledger_;
+    run::StageRecord record;
+    const Timer timer;
+    run_stage(1, profile, record);
+    Repetition result;
+    timer.read(result);
+    result.steps = record.steps;
+    result.point_steps = ledger_.point_steps - before.point_steps;
+    result.substeps = ledger_.substeps - before.substeps;
+    result.changed_element =
+        ledger_.search.searches() - ledger_.search.own - before.search.searches() + before.search.own;
+    for (int i = 0; i < phases; ++i) result.phase_seconds[i] = ledger_.seconds[i] - before.seconds[i];
+    return result;
+  }
+
+ private:
+  static input::Case without_output(input::Case input) {
+    input.output.every = 0;
+    input.output.history = 1e9;
+    return input;
+  }
+
+  void run_stage(int index, bool profile, run::StageRecord& record) {
+    const std::function<bool()> interrupted = [] { return false; };
+    run::Context<2> context{input_, body_, ledger_, results_, progress_, interrupted, profile};
+    run::run_stage(context, index, record);
+  }
+
+  TemporaryFolder folder_;
+  input::Case input_;
+  Body<2> body_;
+  run::Ledger<2> ledger_, ledger_at_rest_;
+  run::Results<2> results_;
+  run::Progress progress_;
+  std::vector<Block<2>> at_rest_;
+};
+
+Prepared slope_cut_failing() {
+  Prepared prepared;
+  const Timer since_start;
+  const auto slope = std::make_shared<SlopeCut>();
+  since_start.read(prepared.start);
+  prepared.points = slope->body().point_count();
+  prepared.elements = slope->body().active.size();
+  prepared.repeat = [slope](bool profile) { return slope->cut(profile); };
+  prepared.write_frame = [slope](const std::string& path) { return write_frame(slope->body(), path); };
+  return prepared;
+}
+
+}  // namespace
+
+Prepared prepare(const std::string& name, int points) {
+  const AnyModel elastic = LinearElastic({1e4, 0.25});
+  if (name == "q4-elastic") return steps_of([&] { return run::build_body(grid_case<2>(points, elastic)); });
+  if (name == "mesh-elastic") return steps_of([&] { return mesh_body(points, elastic, ElementShape::quadrilaterals); });
+  if (name == "mesh-elastic-t3") return steps_of([&] { return mesh_body(points, elastic, ElementShape::triangles); });
+  if (name == "bspline-elastic") {
+    auto input = grid_case<2>(points, elastic);
+    input.method.shape = GridFunctions::b_spline;
+    return steps_of([&] { return run::build_body(input); });
+  }
+  if (name == "q4-subloading") return steps_of([&] { return run::build_body(grid_case<2>(points, soil())); });
+  if (name == "h8-elastic") return steps_of([&] { return run::build_body(grid_case<3>(points, elastic)); });
+  if (name == "h8-subloading") return steps_of([&] { return run::build_body(grid_case<3>(points, soil())); });
+  if (name == "slope-cut-failing") return slope_cut_failing();
+  throw InputError("there is no such benchmark", '"' + name + '"', "see docs/benchmarks.md for their names");
+}
+
+}  // namespace scarp::bench
