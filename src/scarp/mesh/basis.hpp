@@ -98,9 +98,9 @@ struct GridLinear {
   class Cell {
    public:
     Cell(const Mesh<Dim>& mesh, int e)
-        : low_(mesh.nodes[mesh.connectivity[static_cast<std::size_t>(e) * nodes]]), spacing_(mesh.grid->spacing) {
-      for (int d = 0; d < Dim; ++d) inverse_[d] = 1 / spacing_[d];
-    }
+        : low_(mesh.nodes[mesh.connectivity[static_cast<std::size_t>(e) * nodes]]),
+          spacing_(mesh.grid->spacing),
+          inverse_(mesh.grid->per_spacing) {}
 
     template <class T>
     std::array<T, Dim> local(const std::array<T, Dim>& x) const {
@@ -137,6 +137,9 @@ struct GridLinear {
         }
       }
     }
+
+    const Vec<Dim>& low() const { return low_; }          ///< the corner where s = 0
+    const Vec<Dim>& inverse() const { return inverse_; }  ///< ds_d/dx_d [1/m]
 
    private:
     Vec<Dim> low_, spacing_, inverse_;
@@ -217,6 +220,9 @@ struct Simplex {
         for (int j = 0; j < Dim; ++j) g[i][j] = V * B_[i][j];
       }
     }
+
+    const Vec<Dim>& low() const { return low_; }                                  ///< node 0
+    const std::array<Vec<Dim>, nodes>& constant_gradients() const { return B_; }  ///< B_i
 
    private:
     Vec<Dim> low_;
@@ -318,7 +324,9 @@ struct Box {
       }
     }
 
-   private:
+    const std::array<Vec<Dim>, nodes>& positions() const { return x_; }
+
+    /// From −1 ... 1 to 0 ... 1.
     template <class T>
     static std::array<T, Dim> unit(const std::array<T, Dim>& xi) {
       std::array<T, Dim> s;
@@ -326,6 +334,7 @@ struct Box {
       return s;
     }
 
+   private:
     /// dN_i/ds and ds/dx at s; returns det dx/ds.
     template <class T>
     T jacobian(const std::array<T, Dim>& s, std::array<std::array<T, Dim>, nodes>& dN,

@@ -41,6 +41,7 @@ struct Grid {
   Vec<Dim> origin{};
   Vec<Dim> spacing{};
   std::array<int, Dim> elements{};
+  Vec<Dim> per_spacing{};  ///< 1 / spacing
 
   /// Place of element e along each axis.
   std::array<int, Dim> cell(int e) const {

@@ -4,6 +4,7 @@
 #include "scarp/mesh/basis.hpp"
 #include "scarp/points/lanes.hpp"
 #include "scarp/points/points.hpp"
+#include "scarp/transfer/batches.hpp"
 
 namespace scarp::transfer {
 

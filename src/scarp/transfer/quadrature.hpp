@@ -14,34 +14,38 @@
 
 #include <array>
 
-#include "scarp/base/vec.hpp"
+#include "scarp/transfer/at_nodes.hpp"
 
 namespace scarp::transfer {
 
 /// What the step uses for an element's points: w and s_i; as constructed, eq. 4 as printed.
-template <int Dim, int Nodes>
+template <class Basis>
 struct Quadrature {
   double weight = 1;
-  std::array<Vec<Dim>, Nodes> shift{};  ///< [1/m]
+  std::array<Nodal<Basis>, Basis::dim> shift;  ///< [1/m]
+
+  Quadrature() {
+    repeat<nodal_batches<Basis>>([&](auto b) { repeat<Basis::dim>([&](auto j) { shift[j][b] = Lane<Basis>(0.0); }); });
+  }
 };
 
 /// The quadrature of an element full of soil, from Σ Ω_p and Σ Ω_p B_i over its points. Points that fill less than half
 /// of the element, or more than twice, are no quadrature of it: they keep eq. 4.
 template <class Basis>
-Quadrature<Basis::dim, Basis::nodes> full_element(const typename Basis::Cell& cell, double volume,
-                                                  const double* gradient) {
-  Quadrature<Basis::dim, Basis::nodes> q;
+inline Quadrature<Basis> full_element(const typename Basis::Cell& cell, double volume,
+                                      const std::array<Nodal<Basis>, Basis::dim>& gradient) {
+  using T = Lane<Basis>;
+  Quadrature<Basis> q;
   double V;
   std::array<Vec<Basis::dim>, Basis::nodes> exact;
   cell.integrals(V, exact);
   if (!(volume > 0.5 * V && volume < 2 * V)) return q;
-  q.weight = V / volume;
   const double per_V = 1 / V, per_volume = 1 / volume;
-  for (int i = 0; i < Basis::nodes; ++i) {
-    for (int j = 0; j < Basis::dim; ++j) {
-      q.shift[i][j] = exact[i][j] * per_V - gradient[i * Basis::dim + j] * per_volume;
-    }
-  }
+  q.weight = V * per_volume;
+  repeat<Basis::dim>([&](auto j) {
+    const auto mean = nodal<Basis>([&](int i) { return exact[i][j] * per_V; });
+    repeat<nodal_batches<Basis>>([&](auto b) { q.shift[j][b] = mean[b] - gradient[j][b] * T(per_volume); });
+  });
   return q;
 }
 
