@@ -157,7 +157,7 @@ class Update {
     books_.critical_dt = std::min(books_.critical_dt, 1 / rate);
   }
 
-  static Batch increment(const std::vector<double>& column, int at) {
+  [[gnu::always_inline]] static Batch increment(const std::vector<double>& column, int at) {
     return Batch::load_unaligned(column.data() + at);
   }
 

@@ -37,7 +37,7 @@ void make_room(Body<Dim>& body) {
   for (auto& block : body.blocks) reserve_order(block, elements);
   body.active.element.reserve(elements);
   body.active.fresh.reserve(elements);
-  body.assembly.reserve(elements, row, element_chunk);
+  body.assembly.reserve(elements, row, place_chunk);
   auto& buffers = body.buffers;
   buffers.inside.reserve(elements);
   buffers.weight.reserve(elements);
@@ -90,7 +90,7 @@ template <int Dim>
 void rebuild(Body<Dim>& body) {
   auto& buffers = body.buffers;
   const auto& active = body.active;
-  body.assembly.rebuild(*body.mesh, active, element_chunk);
+  body.assembly.rebuild(*body.mesh, active, place_chunk);
   const auto slots = static_cast<std::size_t>(active.size()), places = body.assembly.places();
   buffers.inside.resize(slots);
   for (int slot = 0; slot < active.size(); ++slot) {

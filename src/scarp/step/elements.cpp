@@ -12,8 +12,8 @@ namespace {
 
 /// f(first, last, part) for chunks of the active elements.
 template <int Dim, class F>
-void for_each_chunk(Body<Dim>& body, StepBooks<Dim>& books, F&& f) {
-  exec::sum_over_chunks(body.active.size(), element_chunk, body.buffers.books, books, f);
+void for_each_chunk(Body<Dim>& body, int chunk, StepBooks<Dim>& books, F&& f) {
+  exec::sum_over_chunks(body.active.size(), chunk, body.buffers.books, books, f);
 }
 
 /// f(basis, slot, element) for the active elements in some slots.
@@ -80,7 +80,7 @@ template <class Basis>
 /// Zero in the places of the elements from slot `first` on, n numbers each.
 template <int Dim>
 void clear_places(const Body<Dim>& body, int first, std::vector<double>& numbers, int n) {
-  const int chunk = first / element_chunk;
+  const int chunk = first / place_chunk;
   std::fill(numbers.begin() + static_cast<std::ptrdiff_t>(body.assembly.first_place(chunk)) * n,
             numbers.begin() + static_cast<std::ptrdiff_t>(body.assembly.last_place(chunk)) * n, 0.0);
 }
@@ -98,8 +98,8 @@ void book(const transfer::MotionSums<Dim>& sums, StepBooks<Dim>& books) {
 
 /// Which of a few points, at x now, are still in their element, as bits of lanes; the local coordinates of these are
 /// kept where the basis stores them.
-template <class Basis, class T>
-unsigned still_inside(const typename Basis::Cell& cell, const Lanes<T>& p, const std::array<T, Basis::dim>& x,
+template <class Basis, class Lanes, class T>
+unsigned still_inside(const typename Basis::Cell& cell, const Lanes& p, const std::array<T, Basis::dim>& x,
                       double tolerance, Points<Basis::dim>& points) {
   const unsigned present = first_bits(p.count());
   if constexpr (Basis::stores_local) {
@@ -114,8 +114,8 @@ unsigned still_inside(const typename Basis::Cell& cell, const Lanes<T>& p, const
 }
 
 /// Step 11 for those of a few points that are not `inside` element e any more.
-template <int Dim, class T>
-[[gnu::noinline]] void find_new_elements(const Locator<Dim>& locator, int e, const Lanes<T>& p, unsigned inside,
+template <int Dim, class Lanes>
+[[gnu::noinline]] void find_new_elements(const Locator<Dim>& locator, int e, const Lanes& p, unsigned inside,
                                          Points<Dim>& points, StepBooks<Dim>& books) {
   for (int l = 0; l < p.count(); ++l) {
     if (inside >> l & 1u) continue;
@@ -178,7 +178,7 @@ void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, do
 
 template <int Dim>
 void map_points_to_elements(Body<Dim>& body, Quadrature choice, StepBooks<Dim>& books) {
-  for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>&) {
+  for_each_chunk(body, place_chunk, books, [&](int first, int last, StepBooks<Dim>&) {
     clear_places(body, first, body.buffers.sums, transfer::node_sums<Dim>);
     for_each_element(body, first, last,
                      [&]<class Basis>(Basis, int slot, int e) { sum_points<Basis>(body, choice, slot, e); });
@@ -187,7 +187,7 @@ void map_points_to_elements(Body<Dim>& body, Quadrature choice, StepBooks<Dim>& 
 
 template <int Dim>
 void change_momentum(Body<Dim>& body, StepBooks<Dim>& books) {
-  for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>&) {
+  for_each_chunk(body, place_chunk, books, [&](int first, int last, StepBooks<Dim>&) {
     clear_places(body, first, body.buffers.momentum, transfer::momentum_size<Dim>);
     for_each_element(body, first, last,
                      [&]<class Basis>(Basis, int slot, int e) { add_momentum<Basis>(body, slot, e); });
@@ -196,7 +196,7 @@ void change_momentum(Body<Dim>& body, StepBooks<Dim>& books) {
 
 template <int Dim>
 void strain_stress_and_motion(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
-  for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>& part) {
+  for_each_chunk(body, element_chunk, books, [&](int first, int last, StepBooks<Dim>& part) {
     Strains<Dim>& strains = body.buffers.strains[exec::thread_number()];
     for (auto& block : body.blocks) {
       {

@@ -58,7 +58,7 @@ class ShapesAtPoints {
 
   template <class F>
   void for_each(const Points<Dim>& points, const PointRange& range, F&& f) const {
-    for_each_batch<T>(range, [&](const Lanes<T>& p, int) {
+    for_each_batch_of_element<T>(range, [&](const auto& p, int) {
       std::array<T, K> N;
       std::array<std::array<T, Dim>, K> B;
       cell_.gradients(local_coordinates<Basis>(cell_, points, p), N, B);

@@ -100,22 +100,46 @@ inline void transpose(std::array<T, T::size>& rows) {
 /// sums[place[l] * n + q] += lane l of values[q], for the first `count` lanes l and each q < n.
 template <int count, class T, std::size_t n>
 inline void add_to_places(const std::array<T, n>& values, const int* place, double* sums) {
-  constexpr std::size_t W = T::size, whole = n / W * W;
-  for (std::size_t first = 0; first < whole; first += W) {
-    std::array<T, W> rows;
-    for (std::size_t q = 0; q < W; ++q) rows[q] = values[first + q];
-    transpose(rows);
-    for (std::size_t l = 0; l < static_cast<std::size_t>(count); ++l) {
-      double* to = sums + static_cast<std::size_t>(place[l]) * n + first;
-      (T::load_unaligned(to) + rows[l]).store_unaligned(to);
-    }
+  constexpr int W = static_cast<int>(T::size), N = static_cast<int>(n);
+  const auto at = [&](int l) { return sums + static_cast<std::size_t>(place[l]) * n; };
+#if defined(__AVX512F__)
+  if constexpr (W == 8 && N == 4) {  // as two halves
+    using Half = typename detail::SizedBatch<4>::type;
+    std::array<Half, n> low, high;
+    repeat<N>([&](auto q) {
+      low[q] = Half(_mm512_castpd512_pd256(values[q]));
+      high[q] = Half(_mm512_extractf64x4_pd(values[q], 1));
+    });
+    add_to_places<(count < 4 ? count : 4)>(low, place, sums);
+    add_to_places<(count < 4 ? 0 : count - 4)>(high, place + 4, sums);
+    return;
   }
-  for (std::size_t q = whole; q < n; ++q) {
-    double lanes[W];
+#endif
+#if defined(__AVX__)
+  if constexpr (W == 4 && N == 2) {
+    const __m256d even = _mm256_unpacklo_pd(values[0], values[1]), odd = _mm256_unpackhi_pd(values[0], values[1]);
+    const auto add = [&](int l, const __m128d& pair) { _mm_storeu_pd(at(l), _mm_add_pd(_mm_loadu_pd(at(l)), pair)); };
+    if constexpr (count > 0) add(0, _mm256_castpd256_pd128(even));
+    if constexpr (count > 1) add(1, _mm256_castpd256_pd128(odd));
+    if constexpr (count > 2) add(2, _mm256_extractf128_pd(even, 1));
+    if constexpr (count > 3) add(3, _mm256_extractf128_pd(odd, 1));
+    return;
+  }
+#endif
+  constexpr int whole = N / W * W;
+  repeat<N / W>([&](auto group) {
+    std::array<T, T::size> rows;
+    repeat<W>([&](auto q) { rows[q] = values[group * W + q]; });
+    transpose(rows);
+    repeat<count>([&](auto l) {
+      double* to = at(l) + group * W;
+      (T::load_unaligned(to) + rows[l]).store_unaligned(to);
+    });
+  });
+  for (int q = whole; q < N; ++q) {
+    double lanes[T::size];
     values[q].store_unaligned(lanes);
-    for (std::size_t l = 0; l < static_cast<std::size_t>(count); ++l) {
-      sums[static_cast<std::size_t>(place[l]) * n + q] += lanes[l];
-    }
+    for (int l = 0; l < count; ++l) at(l)[q] += lanes[l];
   }
 }
 

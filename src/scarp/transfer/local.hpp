@@ -8,12 +8,11 @@
 
 namespace scarp::transfer {
 
-template <class Basis, class T>
-inline std::array<T, Basis::dim> local_coordinates(const typename Basis::Cell& cell, const Points<Basis::dim>& points,
-                                                   const Lanes<T>& lanes) {
-  std::array<T, Basis::dim> at;
+template <class Basis, class Points, class Lanes>
+inline auto local_coordinates(const typename Basis::Cell& cell, const Points& points, const Lanes& lanes) {
   const auto& columns = Basis::stores_local ? points.xi : points.x;
-  for (int j = 0; j < Basis::dim; ++j) at[j] = lanes.load(columns[j]);
+  std::array<decltype(lanes.load(columns[0])), Basis::dim> at;
+  repeat<Basis::dim>([&](auto j) { at[j] = lanes.load(columns[j]); });
   if constexpr (Basis::stores_local) {
     return at;
   } else {

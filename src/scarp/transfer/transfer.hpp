@@ -59,7 +59,7 @@ void add_momentum(const typename Basis::Cell& cell, const Points<Basis::dim>& po
   constexpr int Dim = Basis::dim, K = Basis::nodes;
   using T = PointBatch<Dim>;
   alignas(64) std::array<double, whole_batches<T>(K * Dim)> sums{};
-  for_each_batch<T>(range, [&](const Lanes<T>& p, int) {
+  for_each_batch_of_element<T>(range, [&](const auto& p, int) {
     std::array<T, K> N;
     cell.shape(local_coordinates<Basis>(cell, points, p), N);
     const T m = p.load(points.mass);
@@ -124,7 +124,7 @@ inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotio
   const auto shifted = shifted_gradient<Basis>(element);
   const double w = element.weight, per_size2 = 1 / (element.size * element.size),
                stiffer = w > 1 ? w * per_size2 : per_size2;
-  for_each_batch<T>(range, [&](const Lanes<T>& p, int first) {
+  for_each_batch_of_element<T>(range, [&](const auto& p, int first) {
     const auto local = local_coordinates<Basis>(cell, points, p);
     const auto here = motion.at(local);
     const T m = p.load(points.mass);
