@@ -144,4 +144,54 @@ class Field<GridLinear<Dim>, n> {
   Multilinear<Dim, n> u_;
 };
 
+/// Quadrilaterals and hexahedra of any shape: both the field and x are multilinear in s, and so du/dx = du/ds
+/// (dx/ds)⁻¹.
+template <class Basis, int n>
+requires(Basis::stores_local&& Basis::nodes == 1 << Basis::dim) class Field<Basis, n> {
+  static constexpr int Dim = Basis::dim, K = Basis::nodes;
+  using Positions = std::array<std::array<double, row_size<Dim>>, K>;
+
+ public:
+  Field(const typename Basis::Cell& cell, const NodeRows<Basis>& u) : x_(rows(padded(cell))), u_(u) {}
+
+  template <class T>
+  struct At {
+    const Field& field;
+    std::array<T, Dim> s;
+    std::array<std::array<T, Dim>, Dim> I;  ///< ds/dx
+
+    T value(int c) const { return field.u_.value(s, c); }
+    template <int d>
+    T derivative(int c) const {
+      T sum = field.u_.template derivative<0>(s, c) * I[0][d];
+      repeat<Dim - 1>([&](auto k) { sum = fma(field.u_.template derivative<k + 1>(s, c), I[k + 1][d], sum); });
+      return sum;
+    }
+  };
+
+  template <class T>
+  At<T> at(const std::array<T, Dim>& local) const {
+    At<T> at{*this, Basis::Cell::unit(local), {}};
+    std::array<std::array<T, Dim>, Dim> J;
+    repeat<Dim>([&](auto j) { repeat<Dim>([&](auto k) { J[j][k] = x_.template derivative<k>(at.s, j); }); });
+    detail::inverse(J, at.I);
+    return at;
+  }
+
+ private:
+  static Positions padded(const typename Basis::Cell& cell) {
+    Positions x{};
+    repeat<K>([&](auto i) { repeat<Dim>([&](auto j) { x[i][j] = cell.positions()[i][j]; }); });
+    return x;
+  }
+  static NodeRows<Basis> rows(const Positions& x) {
+    NodeRows<Basis> rows;
+    repeat<K>([&](auto i) { rows[i] = x[i].data(); });
+    return rows;
+  }
+
+  Multilinear<Dim, Dim> x_;
+  Multilinear<Dim, n> u_;
+};
+
 }  // namespace scarp::transfer
