@@ -41,15 +41,22 @@ TEST(BodyOfRevolution, RadialExpansionStrainsTheCircumferenceAsMuch) {
   const auto before = block.points.volume;
   Strains<2> strains;
   strains.reserve(block.size());
+  transfer::MotionSums<2> sums;
+  constexpr double no_shift[8] = {};
   for (int slot = 0; slot < body.active.size(); ++slot) {
     const int e = body.active.element[slot];
     const auto n = body.mesh->element_nodes(e);
-    std::array<Vec<2>, 4> du_i;
-    for (int i = 0; i < 4; ++i) du_i[i] = {c * body.mesh->nodes[n[i]][0], -2 * c * body.mesh->nodes[n[i]][1]};
-    transfer::nodes_to_points<Basis>(
-        Basis::Cell(*body.mesh, e), {}, du_i, 1.0, block.points,
+    std::array<transfer::Motion<2>, 4> motion;
+    transfer::ElementMotion<Basis> element{{}, {}, no_shift, 1, body.mesh->size[e], no_shift};
+    for (int i = 0; i < 4; ++i) {
+      motion[i].du(0) = c * body.mesh->nodes[n[i]][0];
+      motion[i].du(1) = -2 * c * body.mesh->nodes[n[i]][1];
+      element.motion[i] = motion[i].row.data();
+    }
+    transfer::nodes_to_points<false, Basis>(
+        Basis::Cell(*body.mesh, e), element, 1, block.points,
         {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, strains, block.begin[slot],
-        [](const auto&...) {});
+        sums, [](const auto&...) {});
   }
   for (int p = 0; p < block.size(); ++p) {
     EXPECT_NEAR(strains.deps[0][p], c, 1e-14);

@@ -155,15 +155,22 @@ TEST(RigidRotation, TurnsStressBetaAndCentreWithTheBody) {
   strains.reserve(block.size());
   for (int s = 0; s < steps; ++s) {
     // ω dt = w: L dt = [[0, −w], [w, 0]], from nodal displacements through step 6.
+    transfer::MotionSums<2> sums;
+    constexpr double no_shift[8] = {};
     for (int slot = 0; slot < body.active.size(); ++slot) {
       const int e = body.active.element[slot];
       const auto x_i = node_positions<Q4>(*body.mesh, e);
-      std::array<Vec<2>, 4> du_i;
-      for (int i = 0; i < 4; ++i) du_i[i] = {-w * x_i[i][1], w * x_i[i][0]};
-      transfer::nodes_to_points<GridLinear<2>>(
-          GridLinear<2>::Cell(*body.mesh, e), {}, du_i, body.mesh->size[e], block.points,
+      std::array<transfer::Motion<2>, 4> motion;
+      transfer::ElementMotion<GridLinear<2>> element{{}, {}, no_shift, 1, body.mesh->size[e]};
+      for (int i = 0; i < 4; ++i) {
+        motion[i].du(0) = -w * x_i[i][1];
+        motion[i].du(1) = w * x_i[i][0];
+        element.motion[i] = motion[i].row.data();
+      }
+      transfer::nodes_to_points<false, GridLinear<2>>(
+          GridLinear<2>::Cell(*body.mesh, e), element, 1, block.points,
           {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, strains,
-          block.begin[slot], [](const auto&...) {});
+          block.begin[slot], sums, [](const auto&...) {});
     }
     exec::StressBooks books;
     exec::update_stresses(block, {block.order.data(), block.size()}, strains, 0, 1.0, {}, books);

@@ -134,6 +134,9 @@ struct Simplex {
       }
     }
 
+    const Vec<Dim>& low() const { return low_; }                                  ///< node 0
+    const std::array<Vec<Dim>, nodes>& constant_gradients() const { return B_; }  ///< B_i
+
     /// The middles of the edges, exact for quadratics (Dim = 2), or four points inside, as exact (Dim = 3).
     template <class F>
     void for_gauss(F&& f) const {
@@ -256,7 +259,9 @@ struct Box {
       }
     }
 
-   private:
+    const std::array<Vec<Dim>, nodes>& positions() const { return x_; }
+
+    /// From −1 ... 1 to 0 ... 1.
     template <class T>
     static std::array<T, Dim> unit(const std::array<T, Dim>& xi) {
       std::array<T, Dim> s;
@@ -264,6 +269,7 @@ struct Box {
       return s;
     }
 
+   private:
     /// dN_i/ds and ds/dx at s; returns det dx/ds.
     template <class T>
     T jacobian(const std::array<T, Dim>& s, std::array<std::array<T, Dim>, nodes>& dN,

@@ -80,11 +80,8 @@ struct GridCell {
   std::array<int, Dim> at;
   Vec<Dim> low, inverse;  ///< its lowest corner [m], and one over its edges [1/m]
 
-  GridCell(const Grid<Dim>& grid, int e) : at(grid.cell(e)) {
-    for (int d = 0; d < Dim; ++d) {
-      low[d] = grid.origin[d] + at[d] * grid.spacing[d];
-      inverse[d] = 1 / grid.spacing[d];
-    }
+  GridCell(const Grid<Dim>& grid, int e) : at(grid.cell(e)), inverse(grid.per_spacing) {
+    for (int d = 0; d < Dim; ++d) low[d] = grid.origin[d] + at[d] * grid.spacing[d];
   }
 
   template <class T>
@@ -107,9 +104,9 @@ struct GridLinear {
   class Cell {
    public:
     Cell(const Mesh<Dim>& mesh, int e)
-        : low_(mesh.nodes[mesh.connectivity[static_cast<std::size_t>(e) * nodes]]), spacing_(mesh.grid->spacing) {
-      for (int d = 0; d < Dim; ++d) inverse_[d] = 1 / spacing_[d];
-    }
+        : low_(mesh.nodes[mesh.connectivity[static_cast<std::size_t>(e) * nodes]]),
+          spacing_(mesh.grid->spacing),
+          inverse_(mesh.grid->per_spacing) {}
 
     template <class T>
     std::array<T, Dim> local(const std::array<T, Dim>& x) const {
@@ -149,6 +146,9 @@ struct GridLinear {
     void for_gauss(F&& f) const {
       detail::for_gauss_of_box(inverse_, f);
     }
+
+    const Vec<Dim>& low() const { return low_; }          ///< the corner where s = 0
+    const Vec<Dim>& inverse() const { return inverse_; }  ///< ds_d/dx_d [1/m]
 
    private:
     Vec<Dim> low_, spacing_, inverse_;
@@ -260,6 +260,7 @@ struct GridGimp {
   /// A point's place in the cell, and λ along each axis.
   template <class T>
   struct Local {
+    using value_type = T;
     std::array<T, Dim> s, lambda;
   };
 

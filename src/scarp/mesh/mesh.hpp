@@ -46,6 +46,7 @@ struct Grid {
   Vec<Dim> spacing{};
   std::array<int, Dim> elements{};
   GridFunctions functions = GridFunctions::linear;
+  Vec<Dim> per_spacing{};  ///< 1 / spacing
 
   /// Place of element e along each axis.
   std::array<int, Dim> cell(int e) const {
