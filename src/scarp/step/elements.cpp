@@ -29,7 +29,7 @@ PointRange points_of(const Block<Dim>& block, int slot) {
 }
 
 template <class Basis>
-[[gnu::flatten]] void sum_points(Body<Basis::dim>& body, Quadrature choice, int slot, int e) {
+SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, Quadrature choice, int slot, int e) {
   constexpr int Dim = Basis::dim, rows = transfer::nodal_size<Basis>;
   const typename Basis::Cell cell(*body.mesh, e);
   const transfer::ShapesAtPoints<Basis> shapes(cell);
@@ -69,7 +69,7 @@ transfer::NodeRows<Basis> motion_of_nodes(const Body<Basis::dim>& body, int e) {
 }
 
 template <class Basis>
-[[gnu::flatten]] void add_momentum(Body<Basis::dim>& body, int slot, int e) {
+SCARP_FLATTEN void add_momentum(Body<Basis::dim>& body, int slot, int e) {
   const auto motion = motion_of_nodes<Basis>(body, e);
   const int* places = body.assembly.places_of(slot);
   double* momentum = body.buffers.momentum.data();
@@ -144,9 +144,9 @@ struct MotionBooks {
 
 /// Steps 4, 6, 8, 9, 10 and 11 for the points of a block in an element.
 template <bool pic, class Basis>
-[[gnu::flatten]] void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block, int slot, int e, double flip,
-                                  Strains<Basis::dim>& strains, int at, MotionBooks<Basis::dim>& motion,
-                                  StepBooks<Basis::dim>& books) {
+SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block, int slot, int e, double flip,
+                               Strains<Basis::dim>& strains, int at, MotionBooks<Basis::dim>& motion,
+                               StepBooks<Basis::dim>& books) {
   constexpr int Dim = Basis::dim;
   const typename Basis::Cell cell(*body.mesh, e);
   transfer::ElementMotion<Basis> element{motion_of_nodes<Basis>(body, e),

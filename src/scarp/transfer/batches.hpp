@@ -9,6 +9,14 @@
 
 #include "scarp/tensor/batch.hpp"
 
+/// Before a function: all that it calls becomes part of it, so that what it works on stays in registers. Sanitizers
+/// would make of that more code than a compiler takes in minutes.
+#if defined(__SANITIZE_ADDRESS__)
+#define SCARP_FLATTEN
+#else
+#define SCARP_FLATTEN [[gnu::flatten]]
+#endif
+
 namespace scarp {
 
 /// f(0), ..., f(n − 1), with numbers known when compiling: what is indexed by them may live in registers (g++ places

@@ -89,12 +89,13 @@ struct ElementMotion {
   const double* hoop_shift = nullptr;  ///< that of N_i / r, in a body of revolution
 };
 
-/// Σ du_i ⊗ s_i, component (j, k) at j * Dim + k.
+/// Σ du_i ⊗ s_i, component (j, k) at j * Dim + k; zero where the basis is not corrected.
 template <class Basis>
 inline Vec<Basis::dim * Basis::dim> shifted_gradient(const ElementMotion<Basis>& element) {
   constexpr int Dim = Basis::dim;
   using T = typename Row<2 * Dim>::value_type;
-  Vec<Dim * Dim> sum;
+  Vec<Dim * Dim> sum{};
+  if constexpr (!Basis::corrects) return sum;
   repeat<Dim>([&](auto k) {
     alignas(64) double column[row_size<2 * Dim>];
     repeat<row_size<2 * Dim> / lanes_of<T>>([&](auto b) {
