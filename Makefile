@@ -3,11 +3,12 @@ BUILD := build
 JOBS := $(shell nproc)
 RESULTS := results/slope_cut
 
-.PHONY: help demo test build bench bench-kernels bench-scaling bench-programs package figures deps format clean
+.PHONY: help demo test validate build bench bench-kernels bench-scaling bench-programs package figures deps format clean
 
 help:
 	@echo "make demo     cut a slope of structured clay and draw what happens, in $(RESULTS)"
 	@echo "make test     build and run all tests"
+	@echo "make validate  run the verification problems on more meshes and draw them (minutes)"
 	@echo "make bench    measure whole steps, in $(BUILD)/bench.json; make bench-kernels their parts"
 	@echo "make build    build the program, $(BUILD)/bin/scarp"
 	@echo "make package  one program for every x86-64: build-package/*.deb and *.tar.gz"
@@ -23,6 +24,13 @@ test: deps
 	cmake --preset release -DSCARP_TESTS=ON -DSCARP_BENCH=OFF
 	cmake --build --preset release --parallel $(JOBS)
 	ctest --preset release --parallel $(JOBS)
+
+validate: deps
+	cmake --preset release -DSCARP_TESTS=ON -DSCARP_BENCH=OFF
+	cmake --build --preset release --parallel $(JOBS) --target validate
+	mkdir -p $(BUILD)/validate
+	$(BUILD)/tests/validate $(BUILD)/validate
+	/usr/bin/python3 tools/figures/validate.py $(BUILD)/validate
 
 build: deps
 	cmake --preset release -DSCARP_TESTS=OFF -DSCARP_BENCH=OFF

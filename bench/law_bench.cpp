@@ -148,8 +148,7 @@ Soil make_soil(const Subloading& model, int substeps) {
   for (std::size_t j = 0; j < block.state.size(); ++j) block.state[j] = c.state[j + 4];
   for (std::size_t j = 0; j < 4; ++j) std::copy(c.deps[j].begin(), c.deps[j].end(), strains.deps[j].begin());
   std::copy(c.spin[0].begin(), c.spin[0].end(), strains.spin[0].begin());
-  for (auto* column : {&strains.volume, &strains.per_mass, &strains.size})
-    std::fill(column->begin(), column->end(), 1.0);
+  for (auto* column : {&strains.volume, &strains.per_mass}) std::fill(column->begin(), column->end(), 1.0);
   for (auto& column : p.sigma)
     for (double& x : column) x = -x;
   for (auto& column : strains.deps)

@@ -19,9 +19,9 @@ def least_bytes(dim, nodes, state, stores_local, points_per_element):
     stress = 4 if dim == 2 else 6
     used_stress = 3 if dim == 2 else 6  # of a plane, σ_zz gives no force
     to_nodes = 2 + 2 * dim + used_stress  # read m, Ω; x, v; σ
-    velocities = 1 + 3 * dim  # read m; x, v; write v
-    # read m, v; read and write x, Ω, σ, ∫dε_q and the law's state; write two bytes of flags and counts
-    motion = 1 + dim + 2 * (dim + 1 + stress + 1 + state)
+    velocities = 1 + dim  # read m, x: momentum after the velocity update needs no v of the points
+    # read m; read and write x, v, Ω, σ, ∫dε_q and the law's state; write two bytes of flags and counts
+    motion = 1 + 2 * (2 * dim + 1 + stress + 1 + state)
     local = 4 * dim if stores_local else 0  # read in each sweep, written in the last
     numbers = to_nodes + velocities + motion + local
     indices = 3 * 4 + 4 + 2  # the order of the points in each sweep; their element; flags and substeps
@@ -38,8 +38,8 @@ def least_operations(dim, nodes, law):
     shape = {3: 2, 4: 6, 8: 26, 9: 2 * 8 + 9}[nodes]
     gradients = 0 if nodes == 3 else {4: 8, 8: 48, 9: 2 * 6 + 18}[nodes]
     to_nodes = local + shape + gradients + dim + stress + nodes * (2 + 2 * dim + 2 * dim * dim)
-    velocities = local + shape + nodes * 2 * dim + 2 * dim + dim + nodes * 2 * dim
-    motion = local + shape + gradients + nodes * 2 * dim * dim + nodes * 2 * dim + dim + 2 * dim * dim
+    velocities = local + shape + nodes * 2 * dim + dim + nodes * 2 * dim
+    motion = local + shape + gradients + nodes * 2 * dim * dim + 2 * nodes * 2 * dim + 3 * dim + 2 * dim * dim
     volume, shear, work, speed = 4 * dim - 4, 4 * stress, 2 * stress + 2, 8 + 2 * dim
     return to_nodes + velocities + motion + volume + shear + work + speed + law
 

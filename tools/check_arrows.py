@@ -24,7 +24,7 @@ ARROWS = {
     "comm": {"base", "tensor", "material", "mesh", "points"},
     "io": {"base", "tensor", "material", "mesh", "points"},
     "step": {"base", "tensor", "material", "mesh", "points", "transfer", "boundary", "exec", "comm"},
-    "input": {"base", "tensor", "material", "lab"},
+    "input": {"base", "tensor", "material", "lab", "mesh"},
     "run": {"base", "tensor", "material", "lab", "mesh", "points", "transfer", "boundary", "exec", "comm", "step", "io", "input"},
 }
 # What only one folder may have: (pattern, folder).

@@ -98,6 +98,7 @@ class View:
     def __init__(self, run, plan=False, section=None):
         self.run, self.plan = run, plan
         self.space = run.summary.get("dimension", 2) == 3
+        self.revolved = run.summary.get("axisymmetric", False)
         self.axes = (0, 2) if self.space and not plan else (0, 1)
         self.names = ["xyz"[axis] + " [m]" for axis in self.axes]
         self.section = section
@@ -118,7 +119,10 @@ class View:
         return self.run.arrays(index)["Points"][:, list(self.axes)]
 
     def sides(self, index):
-        volume = self.run.arrays(index)["volume"]
+        arrays = self.run.arrays(index)
+        volume = arrays["volume"]
+        if self.revolved:  # volumes are those of a radian
+            volume = volume / arrays["Points"][:, 0]
         return np.cbrt(volume) if self.space else np.sqrt(volume)
 
     def caption(self):

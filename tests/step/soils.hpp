@@ -2,9 +2,13 @@
 #pragma once
 
 #include <cmath>
+#include <map>
 #include <memory>
 #include <random>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "../unit/mesh/meshes.hpp"
 #include "../unit/mesh/solids.hpp"
@@ -39,6 +43,12 @@ inline Mesh<3> solid_mesh(Background kind, int n) {
                                                    : Solid::mixed);
 }
 
+/// The same mesh as the meridian plane of a body of revolution.
+inline Mesh<2> revolved(Mesh<2> mesh) {
+  mesh.axisymmetric = true;
+  return mesh;
+}
+
 inline AnyModel elastic() {
   return LinearElastic({1000.0, 0.3});
 }
@@ -59,6 +69,44 @@ inline AnyModel subloading() {
                                     {"c_a", 3},
                                     {"p_atm", 101.325}})
               .model;
+}
+
+/// One of each law but umat, whose law is in a library of the user's, weak enough to yield in these tests.
+inline std::vector<AnyModel> every_model() {
+  const std::map<std::string, double> clay{
+      {"E", 1000}, {"nu", .3}, {"s_u", 3}, {"s_u_residual", 1}, {"epsp_residual", .1}};
+  const std::map<std::string, double> sand{{"E", 1000},          {"nu", .3},           {"c", .5},
+                                           {"phi", 30},          {"psi", 5},           {"c_residual", .2},
+                                           {"phi_residual", 25}, {"epsp_residual", .1}};
+  std::map<std::string, double> viscoplastic{
+      {"kappa", .02}, {"lambda", .12}, {"nu", .3},  {"p_e", 5},  {"M", 1.0},    {"M_c", 1.3},
+      {"k", .78},     {"alpha", 1},    {"xi", .01}, {"c_R", 60}, {"c_beta", 5}, {"c_b", 20},
+      {"R_bf", 1},    {"c_a", 3},      {"mu", 1},   {"n", 2},    {"R_m", 1.6},  {"p_atm", 101.325}};
+  std::vector<AnyModel> all{elastic(), subloading()};
+  for (const auto& [name, constants] : std::vector<std::pair<std::string, std::map<std::string, double>>>{
+           {"viscoplastic-subloading", viscoplastic},
+           {"neo-hookean", {{"E", 1000}, {"nu", .3}}},
+           {"modified-cam-clay",
+            {{"kappa", .02}, {"lambda", .12}, {"nu", .3}, {"p_e", 5}, {"M", 1}, {"p_atm", 101.325}}},
+           {"von-mises", clay},
+           {"tresca", clay},
+           {"mohr-coulomb", sand},
+           {"drucker-prager", sand}}) {
+    all.push_back(make_model(name, constants).model.value());
+  }
+  return all;
+}
+
+/// Sets what the model's state needs to hold the pressure of soil().
+template <int Dim>
+void set_state(Block<Dim>& block, int i) {
+  std::size_t column = 0;
+  for (const auto& info : description_of(block.model).state) {
+    if (info.key == "p_c") block.state[column][i] = 30;
+    if (info.key == "R_b") block.state[column][i] = 2;
+    for (std::size_t j = 0; j < 3 && info.key == "b"; ++j) block.state[column + j][i] = 1;  // not stretched
+    column += info.kind == FieldKind::tensor ? static_cast<std::size_t>(sym_size<Dim>) : 1;
+  }
 }
 
 /// Soil on a mesh of the unit square or cube: points in random places of a lattice of `along` cells on each axis over
@@ -83,7 +131,8 @@ Body<Dim> soil(Mesh<Dim> mesh, const AnyModel& model, int along, double speed) {
       x[j] = 0.2 + step * (rest % along + 0.5 + shake(random));
       rest /= along;
     }
-    points.volume[i] = points.initial_volume[i] = std::pow(step, Dim) * (1 + 0.1 * shake(random));
+    const double depth = body.mesh->axisymmetric ? x[0] : 1;
+    points.volume[i] = points.initial_volume[i] = std::pow(step, Dim) * (1 + 0.1 * shake(random)) * depth;
     points.mass[i] = 1.8 * points.volume[i];
     points.id[i] = i;
     for (int j = 0; j < Dim; ++j) {
@@ -92,11 +141,7 @@ Body<Dim> soil(Mesh<Dim> mesh, const AnyModel& model, int along, double speed) {
       points.sigma[j][i] = -2;
     }
     if constexpr (Dim == 2) points.sigma[2][i] = -2;
-    if (!block.state.empty()) {
-      constexpr int N = sym_size<Dim>;
-      block.state[3 * N][i] = 30;     // p_c
-      block.state[3 * N + 1][i] = 2;  // R_b
-    }
+    set_state(block, i);
   }
   body.blocks.push_back(std::move(block));
   locate_points(body);

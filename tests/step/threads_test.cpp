@@ -95,5 +95,18 @@ TEST(SameBitsOn1And2And3And8Threads, ElasticOnAMixedMeshInSpace) {
   expect_same([](int threads) { return run<3>(threads, solid_mesh(Background::mixed, 10), elastic(), 14, 60, 1.0); });
 }
 
+TEST(SameBitsOn1And2And3And8Threads, EveryModelOnAGrid) {
+  const auto models = every_model();
+  EXPECT_EQ(models.size() + 1, std::variant_size_v<AnyModel>) << "umat is the only one left out";
+  for (const auto& model : models) {
+    SCOPED_TRACE(description_of(model).name);
+    expect_same([&](int threads) { return run<2>(threads, plane_mesh(Background::grid, 30), model, 40, 60, 0.5); });
+  }
+}
+TEST(SameBitsOn1And2And3And8Threads, ElasticBodyOfRevolution) {
+  expect_same(
+      [](int threads) { return run<2>(threads, revolved(plane_mesh(Background::grid, 40)), elastic(), 60, 100, 1.0); });
+}
+
 }  // namespace
 }  // namespace scarp::test

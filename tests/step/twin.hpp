@@ -69,6 +69,7 @@ class Twin {
           p[n][j] += point.m * point.v[j] * at_[k].N[i];
           for (int l = 0; l < Dim; ++l) F[n][j] += at_[k].B[i][l] * stress(point, l, j) * at_[k].w * point.Omega;
         }
+        if (body_.mesh->axisymmetric) F[n][0] += at_[k].B[i][2] * stress(point, 2, 2) * at_[k].w * point.Omega;
       }
     }
     // Step 3 (eq. 5).
@@ -110,7 +111,7 @@ class Twin {
     // Steps 6 to 11 (eqs 9–19).
     for (std::size_t k = 0; k < points.size(); ++k) {
       Point& point = points[k];
-      double L[Dim][Dim] = {};
+      double L[3][3] = {};
       for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
         const auto& v_i = v_end[at_[k].node[i]];
         for (int j = 0; j < Dim; ++j) {
@@ -118,6 +119,7 @@ class Twin {
           point.x[j] += v_i[j] * dt * at_[k].N[i];
           work_gravity += point.m * body_.gravity[j] * v_i[j] * dt * at_[k].N[i];
         }
+        if (body_.mesh->axisymmetric) L[2][2] += v_i[0] * at_[k].B[i][2];
       }
       update_stress(point.state, L, dt, settings.integration);
       point.Omega *= stretch(L, dt);
@@ -126,11 +128,12 @@ class Twin {
   }
 
  private:
-  /// A point's local nodes with N_i and B̂_i, and the weight w of its volume.
+  /// A point's local nodes with N_i and B̂_i, whose third component is N_i / r in a body of revolution, and the weight w
+  /// of its volume.
   struct AtPoint {
     std::vector<int> node;
     std::vector<double> N;
-    std::vector<Vec<Dim>> B;
+    std::vector<Vec<3>> B;
     double w = 1;
   };
 
@@ -139,10 +142,10 @@ class Twin {
     return j == k ? -point.state.sigma[j] : -point.state.sigma[shear[j][k]] / std::sqrt(2.0);
   }
 
-  static double stretch(const double (&L)[Dim][Dim], double dt) {
+  static double stretch(const double (&L)[3][3], double dt) {
     double f[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    for (int j = 0; j < Dim; ++j) {
-      for (int k = 0; k < Dim; ++k) f[j][k] += L[j][k] * dt;
+    for (int j = 0; j < 3; ++j) {
+      for (int k = 0; k < 3; ++k) f[j][k] += L[j][k] * dt;
     }
     double det = 0;
     for (int k = 0; k < 3; ++k) {
@@ -151,10 +154,10 @@ class Twin {
     return det;
   }
 
-  void update_stress(State& s, const double (&L)[Dim][Dim], double dt, const IntegrationSettings& settings) const {
+  void update_stress(State& s, const double (&L)[3][3], double dt, const IntegrationSettings& settings) const {
     Sym<double, N> deps = Sym<double, N>::zero();
     Spin<double, N> spin;
-    for (int j = 0; j < Dim; ++j) deps[j] = -L[j][j] * dt;
+    for (int j = 0; j < 3; ++j) deps[j] = -L[j][j] * dt;
     const int pairs[3][2] = {{0, 1}, {1, 2}, {2, 0}};
     for (int c = 0; c < (Dim == 2 ? 1 : 3); ++c) {
       const auto [j, k] = pairs[c];
@@ -207,9 +210,17 @@ class Twin {
       if (nothing) continue;
       at.node.push_back(n);
       at.N.push_back(all.N[n]);
-      at.B.push_back(all.B[n]);
+      at.B.push_back(with_hoop(all.B[n], all.N[n], x));
     }
     return at;
+  }
+
+  /// ∇N_i at x, and N_i / r after it in a body of revolution.
+  Vec<3> with_hoop(const Vec<Dim>& slope, double N_i, const Vec<Dim>& x) const {
+    Vec<3> B{};
+    for (int j = 0; j < Dim; ++j) B[j] = slope[j];
+    if (body_.mesh->axisymmetric) B[2] = N_i / x[0];
+    return B;
   }
 
   void find_shapes(bool corrected) {
@@ -229,7 +240,8 @@ class Twin {
         std::array<Vec<Dim>, Shape::nodes> B;
         gradients<Shape>(x_i, Shape::local_coordinates(x_i, points[k].x), N_i, B);
         const auto nodes = mesh.element_nodes(e);
-        at_[k] = {{nodes.begin(), nodes.end()}, {N_i.begin(), N_i.end()}, {B.begin(), B.end()}};
+        at_[k] = {{nodes.begin(), nodes.end()}, {N_i.begin(), N_i.end()}, {}};
+        for (int i = 0; i < Shape::nodes; ++i) at_[k].B.push_back(with_hoop(B[i], N_i[i], points[k].x));
       });
     }
     if (!corrected || (mesh.grid && mesh.grid->functions == GridFunctions::gimp)) return;
@@ -254,19 +266,28 @@ class Twin {
           weight *= 0.5 * grid.spacing[j];
         }
         const auto at = at_nodes_of_grid(e, x, 0);
-        f(at.B, at.node, weight);
+        f(at.B, at.node, mesh.axisymmetric ? weight * x[0] : weight);
       });
       return;
     }
     with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
       const auto add = [&](const Vec<Dim>& xi, double weight) {
+        const auto x_i = node_positions<Shape>(mesh, e);
         std::array<double, Shape::nodes> N_i;
-        std::array<Vec<Dim>, Shape::nodes> B;
-        const double dV = weight * gradients<Shape>(node_positions<Shape>(mesh, e), xi, N_i, B);
-        f(B, mesh.element_nodes(e), dV);
+        std::array<Vec<Dim>, Shape::nodes> slopes;
+        std::array<Vec<3>, Shape::nodes> B;
+        const double dV = weight * gradients<Shape>(x_i, xi, N_i, slopes);
+        Vec<Dim> x{};
+        for (int i = 0; i < Shape::nodes; ++i) {
+          for (int j = 0; j < Dim; ++j) x[j] += N_i[i] * x_i[i][j];
+        }
+        for (int i = 0; i < Shape::nodes; ++i) B[i] = with_hoop(slopes[i], N_i[i], x);
+        f(B, mesh.element_nodes(e), mesh.axisymmetric ? dV * x[0] : dV);
       };
       if constexpr (Shape::nodes == Dim + 1) {
-        add({}, Dim == 2 ? 0.5 : 1.0 / 6);
+        Vec<Dim> centre;
+        centre.fill(1.0 / (Dim + 1));
+        add(centre, Dim == 2 ? 0.5 : 1.0 / 6);
       } else {
         for_gauss_points(add);
       }
@@ -292,11 +313,11 @@ class Twin {
   /// Corrected quadrature inside the soil, as in docs/theory.md. Numbers of nodes are those of the mesh.
   void correct(int e, const std::vector<std::size_t>& in) {
     double V = 0, filled = 0;
-    std::map<int, Vec<Dim>> shift;  // s_i
+    std::map<int, Vec<3>> shift;  // s_i
     for_quadrature_points(e, [&](const auto& B, const auto& nodes, double dV) {
       V += dV;
       for (std::size_t i = 0; i < B.size(); ++i) {
-        for (int j = 0; j < Dim; ++j) shift[nodes[i]][j] += B[i][j] * dV;
+        for (int j = 0; j < 3; ++j) shift[nodes[i]][j] += B[i][j] * dV;
       }
     });
     for (const auto k : in) filled += points[k].Omega;
@@ -306,7 +327,7 @@ class Twin {
     }
     for (const auto k : in) {
       for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
-        for (int j = 0; j < Dim; ++j) shift[at_[k].node[i]][j] -= points[k].Omega * at_[k].B[i][j] / filled;
+        for (int j = 0; j < 3; ++j) shift[at_[k].node[i]][j] -= points[k].Omega * at_[k].B[i][j] / filled;
       }
     }
     for (const auto k : in) {
@@ -318,7 +339,7 @@ class Twin {
           at_[k].N.push_back(0);
           at_[k].B.push_back({});
         }
-        for (int j = 0; j < Dim; ++j) at_[k].B[known][j] += s[j];
+        for (int j = 0; j < 3; ++j) at_[k].B[known][j] += s[j];
       }
     }
   }

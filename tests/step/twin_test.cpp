@@ -95,6 +95,19 @@ TEST_P(InThePlane, SumOverPointsAsPrinted) {
 TEST_P(InThePlane, Subloading) {
   run_both<Subloading, 2>(plane_mesh(GetParam(), 10), subloading(), 13, 300, all_on, 0.5);
 }
+TEST_P(InThePlane, BodyOfRevolution) {
+  if (GetParam() == Background::gimp) GTEST_SKIP() << "points that are boxes are no rings";
+  run_both<LinearElastic, 2>(revolved(plane_mesh(GetParam(), 10)), elastic(), 13, 300, plain);
+}
+TEST_P(InThePlane, BodyOfRevolutionAsPrinted) {
+  if (GetParam() == Background::gimp) GTEST_SKIP() << "points that are boxes are no rings";
+  run_both<LinearElastic, 2>(revolved(plane_mesh(GetParam(), 10)), elastic(), 13, 100,
+                             {.quadrature = Quadrature::points, .integration = {1e-4, 1e-5}});
+}
+TEST_P(InThePlane, BodyOfRevolutionOfSubloadingSoil) {
+  if (GetParam() == Background::gimp) GTEST_SKIP() << "points that are boxes are no rings";
+  run_both<Subloading, 2>(revolved(plane_mesh(GetParam(), 10)), subloading(), 13, 200, all_on, 0.1);
+}
 TEST_P(InSpace, LinearElastic) {
   run_both<LinearElastic, 3>(solid_mesh(GetParam(), 6), elastic(), 8, 150, all_on);
 }

@@ -5,42 +5,51 @@
 namespace scarp::exec {
 
 template <int Dim>
-void Assembly::rebuild(const Mesh<Dim>& mesh, const ActiveElements& active) {
-  for (const int n : node_) position_[n] = -1;
-  position_.resize(mesh.nodes.size(), -1);
-  // In the order in which the elements touch them, so that sweeps over nodes and elements go through memory alike.
-  node_.clear();
+void Assembly::rebuild(const Mesh<Dim>& mesh, const ActiveElements& active, int chunk) {
+  for (const int n : node_) latest_[n] = {};
+  latest_.resize(mesh.nodes.size());
   row_ = 0;
-  for (const int e : active.element) {
-    const auto local = mesh.element_nodes(e);
-    row_ = std::max(row_, static_cast<int>(local.size()));
-    for (const int n : local) {
-      if (position_[n] >= 0) continue;
-      position_[n] = size();
-      node_.push_back(n);
+  for (const int e : active.element) row_ = std::max(row_, static_cast<int>(mesh.element_nodes(e).size()));
+  // Nodes in the order in which the elements touch them, so that sweeps over nodes and elements go through memory
+  // alike.
+  node_.clear();
+  of_place_.clear();
+  chunk_begin_.clear();
+  local_.resize(static_cast<std::size_t>(active.size()) * row_);
+  int places = 0;
+  for (int slot = 0; slot < active.size(); ++slot) {
+    if (slot % chunk == 0) chunk_begin_.push_back(places);
+    int* local = local_.data() + static_cast<std::size_t>(slot) * row_;
+    for (const int n : mesh.element_nodes(active.element[slot])) {
+      auto& latest = latest_[n];
+      if (latest.position < 0) {
+        latest.position = size();
+        node_.push_back(n);
+      }
+      if (latest.place < chunk_begin_.back()) {  // the chunk has none for this node yet
+        latest.place = places++;
+        of_place_.push_back(latest.position);
+      }
+      *local++ = latest.place;
     }
   }
+  chunk_begin_.push_back(places);
 
   begin_.assign(node_.size() + 2, 0);
-  for (const int e : active.element) {
-    for (const int n : mesh.element_nodes(e)) ++begin_[position_[n] + 2];
-  }
+  for (const int k : of_place_) ++begin_[k + 2];
   for (std::size_t k = 1; k < begin_.size(); ++k) begin_[k] += begin_[k - 1];
-  place_.resize(begin_.back());
-  for (int slot = 0; slot < active.size(); ++slot) {
-    int place = slot * row_;
-    for (const int n : mesh.element_nodes(active.element[slot])) place_[begin_[position_[n] + 1]++] = place++;
-  }
-  places_ = static_cast<std::size_t>(active.size()) * row_;
+  place_.resize(of_place_.size());
+  for (int place = 0; place < places; ++place) place_[begin_[of_place_[place] + 1]++] = place;
 }
 
-void Assembly::reserve(std::size_t elements, std::size_t row) {
-  node_.reserve(elements * row);
-  begin_.reserve(elements * row + 2);
-  place_.reserve(elements * row);
+void Assembly::reserve(std::size_t elements, std::size_t row, int chunk) {
+  const std::size_t rows = elements * row;
+  for (auto* list : {&local_, &node_, &place_, &of_place_}) list->reserve(rows);
+  begin_.reserve(rows + 2);
+  chunk_begin_.reserve(elements / chunk + 2);
 }
 
-template void Assembly::rebuild<2>(const Mesh<2>&, const ActiveElements&);
-template void Assembly::rebuild<3>(const Mesh<3>&, const ActiveElements&);
+template void Assembly::rebuild<2>(const Mesh<2>&, const ActiveElements&, int);
+template void Assembly::rebuild<3>(const Mesh<3>&, const ActiveElements&, int);
 
 }  // namespace scarp::exec

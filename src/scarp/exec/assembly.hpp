@@ -1,5 +1,6 @@
-// From elements to nodes without races: every active element writes its own row, every node gathers from the elements
-// around it in a fixed order. The result is the same to the last bit on any number of threads.
+// From elements to nodes without races: the elements are cut into chunks, each with places of its own for the nodes
+// that it touches. The elements of a chunk add to its places one after the other, and every node gathers from its
+// places in the order of the chunks. The result is the same to the last bit on any number of threads.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +11,7 @@
 
 namespace scarp::exec {
 
-/// The active nodes, and for each the places of its parts in the rows of the active elements, elements ascending: the
-/// part of local node i of the element in slot s is at place s · row + i.
+/// The active nodes with their places, and the places of the active elements' local nodes.
 class Assembly {
  public:
   /// Most local nodes of an element.
@@ -20,27 +20,39 @@ class Assembly {
   int size() const { return static_cast<int>(node_.size()); }
   /// Its number in the mesh.
   int node(int k) const { return node_[k]; }
-  /// Number of places in all rows.
-  std::size_t places() const { return places_; }
+  /// Number of places of all chunks.
+  std::size_t places() const { return chunk_begin_.empty() ? 0 : static_cast<std::size_t>(chunk_begin_.back()); }
 
-  /// f(place) for each part of active node k: step 2 of the report, in a fixed order.
+  /// The places of chunk c: first to last − 1.
+  int first_place(int c) const { return chunk_begin_[c]; }
+  int last_place(int c) const { return chunk_begin_[c + 1]; }
+  /// The places of the local nodes of the active element in a slot.
+  const int* places_of(int slot) const { return local_.data() + static_cast<std::size_t>(slot) * row_; }
+
+  /// f(place) for each place of active node k: step 2 of the report, in a fixed order.
   template <class F>
   void gather(int k, F&& f) const {
     for (int l = begin_[k]; l < begin_[k + 1]; ++l) f(place_[l]);
   }
 
-  /// Makes it anew for other active elements; what it costs is theirs only.
+  /// Makes it anew for other active elements, in chunks of so many; what it costs is theirs only.
   template <int Dim>
-  void rebuild(const Mesh<Dim>& mesh, const ActiveElements& active);
+  void rebuild(const Mesh<Dim>& mesh, const ActiveElements& active, int chunk);
 
   /// Room for so many active elements of up to `row` nodes.
-  void reserve(std::size_t elements, std::size_t row);
+  void reserve(std::size_t elements, std::size_t row, int chunk);
 
  private:
   int row_ = 0;
-  std::size_t places_ = 0;
-  std::vector<int> node_, begin_, place_;
-  std::vector<int> position_;  ///< scratch, of each node of the mesh: its number among the active ones, or -1
+  std::vector<int> chunk_begin_;           ///< of each chunk: its first place
+  std::vector<int> local_;                 ///< rows of the active elements: places of their local nodes
+  std::vector<int> node_, begin_, place_;  ///< active nodes, and their places
+  std::vector<int> of_place_;              ///< scratch, of each place: its active node
+  struct Latest {
+    int position = -1;  ///< number among the active nodes, or -1
+    int place = -1;     ///< the latest given
+  };
+  std::vector<Latest> latest_;  ///< scratch, of each node of the mesh
 };
 
 }  // namespace scarp::exec

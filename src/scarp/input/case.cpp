@@ -109,6 +109,11 @@ GridFunctions read_shape(const Node& node) {
 /// GIMP and B-splines are products of functions along the axes of a grid.
 template <int Dim>
 void check_shape(const CaseOf<Dim>& input) {
+  if (input.method.shape == GridFunctions::gimp && input.axisymmetric) {
+    throw InputError("the points of a body of revolution are rings, not the boxes of GIMP",
+                     "shape = \"gimp\" with axisymmetric = true", "choose shape = \"b-spline\" or \"linear\"",
+                     input.method.shape_position);
+  }
   if (input.method.shape == GridFunctions::linear || input.mesh.grid) return;
   throw InputError("GIMP and B-splines need a mesh that is a grid",
                    fmt::format("shape = \"{}\" on the mesh of a file",
@@ -174,11 +179,26 @@ void check_gravity(const CaseOf<Dim>& input) {
 }
 
 template <int Dim>
+Vec<Dim> read_gravity(const Node& node, bool axisymmetric) {
+  const auto gravity = vector_in<Dim>(node, "gravity");
+  if (!axisymmetric || gravity[0] == 0) return gravity;
+  throw InputError("gravity points along the axis of a body of revolution",
+                   fmt::format("gravity = [{}] with axisymmetric = true", fmt::join(gravity, ", ")),
+                   "give 0 for its first component, or leave out axisymmetric", node.position);
+}
+
+template <int Dim>
 CaseOf<Dim> read_tables(Table& table, const std::string& path) {
   CaseOf<Dim> result;
   result.path = path;
   result.title = table.text_or("title", path);
-  if (const Node* gravity = table.find("gravity")) result.gravity = vector_in<Dim>(*gravity, "gravity");
+  if constexpr (Dim == 2) {
+    result.axisymmetric = table.truth_or("axisymmetric", false);
+  } else {
+    refuse_keys<3>(table, {"axisymmetric"},
+                   "a body of revolution is a case in two dimensions, its meridian plane: leave out dimension = 3");
+  }
+  if (const Node* gravity = table.find("gravity")) result.gravity = read_gravity<Dim>(*gravity, result.axisymmetric);
   result.mesh = read_mesh<Dim>(table.need("mesh", "add [mesh] with a file or a grid"), path);
   if (const Node* method = table.find("method")) result.method = read_method(*method);
   check_shape(result);

@@ -131,6 +131,7 @@ struct OutputInput {
 template <int Dim>
 struct CaseOf {
   static constexpr int dimension = Dim;
+  bool axisymmetric = false;  ///< in two dimensions: x is the distance from the vertical axis of a body of revolution
   std::string title;
   std::string path;  ///< of the case file
   Vec<Dim> gravity = down(9.81);

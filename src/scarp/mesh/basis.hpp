@@ -8,6 +8,7 @@
 //     shape(local, N)        N_i
 //     gradients(local, N, B) N_i and B_i = dN_i/dx
 //     integrals(V, g)        the element's volume V and g_i = ∫ B_i dV over it (where the basis is corrected)
+//     for_gauss(f)           f(local, dV) for points that integrate x N_i and x B_i over it exactly (there, too)
 // all on T: double, or a SIMD batch with a point in each lane. And it says of itself
 //   B::has_domains           whether a point is a box: local(x, half) then takes half its edge [m], and what it returns
 //                            goes to shape() and gradients(); local(x), without it, still to inside()
@@ -133,6 +134,21 @@ struct Simplex {
       }
     }
 
+    const Vec<Dim>& low() const { return low_; }                                  ///< node 0
+    const std::array<Vec<Dim>, nodes>& constant_gradients() const { return B_; }  ///< B_i
+
+    /// The middles of the edges, exact for quadratics (Dim = 2), or four points inside, as exact (Dim = 3).
+    template <class F>
+    void for_gauss(F&& f) const {
+      constexpr double a = Dim == 2 ? 0.5 : 0.13819660112501051518, b = Dim == 2 ? 0.0 : 0.58541019662496845446;
+      for (int q = 0; q < nodes; ++q) {
+        Vec<Dim> xi;
+        xi.fill(a);
+        if (q > 0) xi[q - 1] = b;
+        f(xi, det_ / ((Dim == 2 ? 2 : 6) * nodes));
+      }
+    }
+
    private:
     Vec<Dim> low_;
     double det_;
@@ -207,14 +223,13 @@ struct Box {
       // point in each lane.
       using T = PointBatch<Dim>;
       constexpr int W = lanes_of<T>;
-      constexpr double gauss[2] = {0.21132486540518711775, 0.78867513459481288225};
       constexpr std::size_t numbers = whole_batches<T>(1 + nodes * Dim);
       alignas(64) std::array<double, numbers> sums{};
       for (int first = 0; first < nodes; first += W) {
         std::array<T, Dim> s;
         for (int d = 0; d < Dim; ++d) {
           double lanes[W];
-          for (int l = 0; l < W; ++l) lanes[l] = gauss[far_side(first + l, d)];
+          for (int l = 0; l < W; ++l) lanes[l] = gauss_of_unit[far_side(first + l, d)];
           s[d] = T::load_unaligned(lanes);
         }
         std::array<std::array<T, Dim>, nodes> B;
@@ -233,7 +248,20 @@ struct Box {
       }
     }
 
-   private:
+    template <class F>
+    void for_gauss(F&& f) const {
+      for (int q = 0; q < nodes; ++q) {
+        const Vec<Dim> s = gauss_of_box<Dim>(q);
+        std::array<Vec<Dim>, nodes> B;
+        Vec<Dim> xi;
+        for (int d = 0; d < Dim; ++d) xi[d] = 2 * s[d] - 1;
+        f(xi, jacobian_and_gradients(s, B) / nodes);
+      }
+    }
+
+    const std::array<Vec<Dim>, nodes>& positions() const { return x_; }
+
+    /// From −1 ... 1 to 0 ... 1.
     template <class T>
     static std::array<T, Dim> unit(const std::array<T, Dim>& xi) {
       std::array<T, Dim> s;
@@ -241,6 +269,7 @@ struct Box {
       return s;
     }
 
+   private:
     /// dN_i/ds and ds/dx at s; returns det dx/ds.
     template <class T>
     T jacobian(const std::array<T, Dim>& s, std::array<std::array<T, Dim>, nodes>& dN,
@@ -287,27 +316,10 @@ struct Linear<T4> : detail::Simplex<3> {};
 template <>
 struct Linear<H8> : detail::Box<3> {};
 
-/// f(basis, slot, element) for slots first ... last - 1 of a list of elements. The choice is made once for all on a
-/// grid, once per element elsewhere.
-template <int Dim, class F>
-inline void with_basis(const Mesh<Dim>& mesh, const int* elements, int first, int last, F&& f) {
-  const auto all = [&](auto basis) {
-    for (int slot = first; slot < last; ++slot) f(basis, slot, elements[slot]);
-  };
-  if (mesh.grid) {
-    switch (mesh.grid->functions) {
-      case GridFunctions::linear:
-        return all(GridLinear<Dim>{});
-      case GridFunctions::gimp:
-        return all(GridGimp<Dim>{});
-      case GridFunctions::b_spline:
-        return all(GridSpline<Dim>{});
-    }
-  }
-  for (int slot = first; slot < last; ++slot) {
-    const int e = elements[slot];
-    with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) { f(Linear<Shape>{}, slot, e); });
-  }
-}
+/// Does the basis describe the meridian plane of a body of revolution (mesh/axisymmetric.hpp)?
+template <class B>
+inline constexpr bool is_axisymmetric = requires {
+  B::axisymmetric;
+};
 
 }  // namespace scarp

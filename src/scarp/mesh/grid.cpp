@@ -127,10 +127,11 @@ Mesh<Dim> make_grid(const std::type_identity_t<Vec<Dim>>& origin, const std::typ
   std::array<int, Dim> lines;  // of nodes along each axis
   std::size_t element_count = 1, node_count = 1;
   Mesh<Dim> mesh;
-  mesh.grid = Grid<Dim>{origin, {}, elements, functions};
+  mesh.grid = Grid<Dim>{origin, {}, elements, functions, {}};
   for (int k = 0; k < Dim; ++k) {
     lines[k] = functions_along(functions, elements[k]);
     mesh.grid->spacing[k] = size[k] / elements[k];
+    mesh.grid->per_spacing[k] = 1 / mesh.grid->spacing[k];
     element_count *= elements[k];
     node_count *= lines[k];
   }

@@ -65,17 +65,23 @@ inline void products(const std::array<std::array<T, Each>, Dim>& f, const std::a
   }
 }
 
+/// f(local, dV) for the Gauss points of a cell, from one over its edges.
+template <std::size_t Dim, class F>
+inline void for_gauss_of_box(const std::array<double, Dim>& inverse, F&& f) {
+  constexpr int points = 1 << Dim;
+  double dV = 1.0 / points;
+  for (const double per_edge : inverse) dV /= per_edge;
+  for (int q = 0; q < points; ++q) f(gauss_of_box<static_cast<int>(Dim)>(q), dV);
+}
+
 /// Where a cell of a grid is.
 template <int Dim>
 struct GridCell {
   std::array<int, Dim> at;
   Vec<Dim> low, inverse;  ///< its lowest corner [m], and one over its edges [1/m]
 
-  GridCell(const Grid<Dim>& grid, int e) : at(grid.cell(e)) {
-    for (int d = 0; d < Dim; ++d) {
-      low[d] = grid.origin[d] + at[d] * grid.spacing[d];
-      inverse[d] = 1 / grid.spacing[d];
-    }
+  GridCell(const Grid<Dim>& grid, int e) : at(grid.cell(e)), inverse(grid.per_spacing) {
+    for (int d = 0; d < Dim; ++d) low[d] = grid.origin[d] + at[d] * grid.spacing[d];
   }
 
   template <class T>
@@ -98,9 +104,9 @@ struct GridLinear {
   class Cell {
    public:
     Cell(const Mesh<Dim>& mesh, int e)
-        : low_(mesh.nodes[mesh.connectivity[static_cast<std::size_t>(e) * nodes]]), spacing_(mesh.grid->spacing) {
-      for (int d = 0; d < Dim; ++d) inverse_[d] = 1 / spacing_[d];
-    }
+        : low_(mesh.nodes[mesh.connectivity[static_cast<std::size_t>(e) * nodes]]),
+          spacing_(mesh.grid->spacing),
+          inverse_(mesh.grid->per_spacing) {}
 
     template <class T>
     std::array<T, Dim> local(const std::array<T, Dim>& x) const {
@@ -135,6 +141,14 @@ struct GridLinear {
         }
       }
     }
+
+    template <class F>
+    void for_gauss(F&& f) const {
+      detail::for_gauss_of_box(inverse_, f);
+    }
+
+    const Vec<Dim>& low() const { return low_; }          ///< the corner where s = 0
+    const Vec<Dim>& inverse() const { return inverse_; }  ///< ds_d/dx_d [1/m]
 
    private:
     Vec<Dim> low_, spacing_, inverse_;
@@ -204,6 +218,11 @@ struct GridSpline {
       }
     }
 
+    template <class F>
+    void for_gauss(F&& f) const {
+      detail::for_gauss_of_box(cell_.inverse, f);
+    }
+
    private:
     template <class T>
     std::array<std::array<T, each>, Dim> along_axes(const std::array<T, Dim>& s) const {
@@ -241,6 +260,7 @@ struct GridGimp {
   /// A point's place in the cell, and λ along each axis.
   template <class T>
   struct Local {
+    using value_type = T;
     std::array<T, Dim> s, lambda;
   };
 

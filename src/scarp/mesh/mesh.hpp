@@ -46,6 +46,7 @@ struct Grid {
   Vec<Dim> spacing{};
   std::array<int, Dim> elements{};
   GridFunctions functions = GridFunctions::linear;
+  Vec<Dim> per_spacing{};  ///< 1 / spacing
 
   /// Place of element e along each axis.
   std::array<int, Dim> cell(int e) const {
@@ -90,11 +91,13 @@ struct Mesh {
   std::vector<ElementType> types;  ///< one per element
   std::vector<int> offsets;        ///< elements + 1; local nodes of e are connectivity[offsets[e] ... offsets[e+1])
   std::vector<int> connectivity;
-  std::vector<double> size;         ///< one per element, for the critical time step [m]: its least height, or less (make_grid)
+  std::vector<double> size;  ///< one per element, for the critical time step: least height, or less (make_grid) [m]
   std::vector<int> around_offsets;  ///< elements + 1; elements that share a node with e (e itself not) ...
   std::vector<int> around;          ///< ... ascending. Both empty in a grid, where they follow from the index
   std::map<std::string, std::vector<int>> node_sets;  ///< ascending; the sides (add_side_sets) and named groups
   std::optional<Grid<Dim>> grid;                      ///< set when the mesh is a structured grid
+  bool axisymmetric = false;  ///< the plane is the meridian plane of a body of revolution: x is the distance from its
+                              ///< vertical axis, and volumes, masses and forces are those of one radian
 
   int element_count() const { return static_cast<int>(types.size()); }
   int node_count() const { return static_cast<int>(nodes.size()); }

@@ -15,6 +15,15 @@ constexpr bool far_side(int i, int d) {
   return d == 0 ? (i & 3) == 1 || (i & 3) == 2 : d == 1 ? (i & 2) != 0 : i >= 4;
 }
 
+/// Two Gauss points along each axis of the unit box, of weight 2^−Dim each: exact to the third degree along each axis.
+inline constexpr double gauss_of_unit[2] = {0.21132486540518711775, 0.78867513459481288225};
+template <int Dim>
+constexpr Vec<Dim> gauss_of_box(int q) {
+  Vec<Dim> s{};
+  for (int d = 0; d < Dim; ++d) s[d] = gauss_of_unit[far_side(q, d)];
+  return s;
+}
+
 /// Products of 1 − s and s on the unit box.
 template <int Dim, class T>
 inline void multilinear(const std::array<T, Dim>& s, std::array<T, (1 << Dim)>& N) {

@@ -1,7 +1,9 @@
 // A few points at once, one in each lane of a SIMD batch.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "scarp/tensor/batch.hpp"
@@ -15,48 +17,78 @@ struct PointRange {
 };
 
 /// The points order[0] ... order[count - 1] in the lanes of a batch T, count ≤ its size. Where they lie beside each
-/// other in the arrays (sorted points do, all but a few) their values are loaded as one; otherwise one by one. Lanes
+/// other in the arrays (sorted points do, all but a few) and fill the lanes their values are loaded as one; otherwise
+/// one by one. Lanes
 /// without a point are zero, so that they have no mass and no volume.
 template <class T>
 class Lanes {
  public:
   static constexpr int W = lanes_of<T>;
 
-  Lanes(const int* order, int count) : order_(order), count_(count) {
-    for (int l = 1; l < count; ++l) side_by_side_ = side_by_side_ && order[l] == order[0] + l;
+  Lanes(const int* order, int count) : order_(order), count_(count), whole_(count == W) {
+    if (!whole_) return;
+    int off = 0;
+    for (int l = 1; l < W; ++l) off |= order[l] - order[0] - l;
+    whole_ = off == 0;
   }
 
   int count() const { return count_; }
   int point(int lane) const { return order_[lane]; }
 
-  T load(const std::vector<double>& column) const {
-    if (side_by_side_) [[likely]] {
-      const double* first = column.data() + order_[0];
-      return count_ == W ? T::load_unaligned(first) : load_first<T>(first, count_);
+  [[gnu::always_inline]] T load(const std::vector<double>& column) const {
+    if (whole_) [[likely]]
+      return T::load_unaligned(column.data() + order_[0]);
+    return load_one_by_one(column);
+  }
+
+  [[gnu::always_inline]] void store(const T& value, std::vector<double>& column) const {
+    if (whole_) [[likely]] {
+      value.store_unaligned(column.data() + order_[0]);
+    } else {
+      store_one_by_one(value, column);
     }
+  }
+
+  void store(std::uint8_t value, std::vector<std::uint8_t>& column) const {
+    if (whole_) [[likely]] {
+      std::memset(column.data() + order_[0], value, W);
+    } else {
+      for (int l = 0; l < count_; ++l) column[order_[l]] = value;
+    }
+  }
+
+ private:
+  [[gnu::noinline]] T load_one_by_one(const std::vector<double>& column) const {
     double lanes[W] = {};
     for (int l = 0; l < count_; ++l) lanes[l] = column[order_[l]];
     return T::load_unaligned(lanes);
   }
-
-  void store(const T& value, std::vector<double>& column) const {
-    if (side_by_side_ && count_ == W) [[likely]] {
-      value.store_unaligned(column.data() + order_[0]);
-      return;
-    }
+  [[gnu::noinline]] void store_one_by_one(const T& value, std::vector<double>& column) const {
     double lanes[W];
     value.store_unaligned(lanes);
     for (int l = 0; l < count_; ++l) column[order_[l]] = lanes[l];
   }
 
-  void store(std::uint8_t value, std::vector<std::uint8_t>& column) const {
-    for (int l = 0; l < count_; ++l) column[order_[l]] = value;
-  }
-
- private:
   const int* order_;
   int count_;
-  bool side_by_side_ = true;
+  bool whole_;
+};
+
+/// The points first ... first + W − 1 in the lanes of a batch: Lanes that need no questions asked.
+template <class T>
+class WholeLanes {
+ public:
+  static constexpr int W = lanes_of<T>;
+
+  explicit WholeLanes(int first) : first_(static_cast<std::size_t>(first)) {}
+
+  static constexpr int count() { return W; }
+  int point(int lane) const { return static_cast<int>(first_) + lane; }
+  T load(const std::vector<double>& column) const { return T::load_unaligned(column.data() + first_); }
+  void store(const T& value, std::vector<double>& column) const { value.store_unaligned(column.data() + first_); }
+
+ private:
+  std::size_t first_;
 };
 
 /// f(lanes, first) for the points of a range, a batch at a time; `first` is the place of its first point in the range.
@@ -65,6 +97,19 @@ inline void for_each_batch(const PointRange& range, F&& f) {
   for (int k = 0; k < range.count; k += lanes_of<T>) {
     f(Lanes<T>(range.order + k, range.count - k < lanes_of<T> ? range.count - k : lanes_of<T>), k);
   }
+}
+
+/// The same for the points of one element, which ascend in the arrays; f is called with Lanes or WholeLanes.
+template <class T, class F>
+inline void for_each_batch_of_element(const PointRange& range, F&& f) {
+  constexpr int W = lanes_of<T>;
+  if (range.count == 0) return;
+  const bool beside = range.order[range.count - 1] - range.order[0] == range.count - 1;
+  int k = 0;
+  if (beside) {
+    for (; k + W <= range.count; k += W) f(WholeLanes<T>(range.order[0] + k), k);
+  }
+  for (; k < range.count; k += W) f(Lanes<T>(range.order + k, range.count - k < W ? range.count - k : W), k);
 }
 
 }  // namespace scarp

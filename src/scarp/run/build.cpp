@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "scarp/base/error.hpp"
@@ -16,14 +17,52 @@ namespace scarp::run {
 namespace {
 
 template <int Dim>
-std::unique_ptr<const Mesh<Dim>> make_mesh(const input::MeshInputOf<Dim>& input, GridFunctions shape) {
-  if (input.file) return std::make_unique<const Mesh<Dim>>(read_gmsh<Dim>(*input.file));
+Mesh<Dim> read_mesh(const input::MeshInputOf<Dim>& input, GridFunctions shape) {
+  if (input.file) return read_gmsh<Dim>(*input.file);
   try {
-    return std::make_unique<const Mesh<Dim>>(
-        make_grid<Dim>(input.grid->origin, input.grid->size, input.grid->elements, shape));
+    return make_grid<Dim>(input.grid->origin, input.grid->size, input.grid->elements, shape);
   } catch (const InputError& error) {
     throw InputError(error.problem(), error.value(), error.remedy(), input.position);
   }
+}
+
+/// The largest coordinate in the mesh, whatever its sign.
+template <int Dim>
+double largest_coordinate(const Mesh<Dim>& mesh) {
+  double largest = 0;
+  for (const auto& x : mesh.nodes) {
+    for (const double coordinate : x) largest = std::max(largest, std::abs(coordinate));
+  }
+  return largest;
+}
+
+constexpr double round_off = 1e-9;  ///< of a mesh's largest coordinate: nodes this far from a place are there
+
+template <int Dim>
+std::unique_ptr<const Mesh<Dim>> make_mesh(const input::CaseOf<Dim>& input) {
+  auto mesh = std::make_unique<Mesh<Dim>>(read_mesh(input.mesh, input.method.shape));
+  mesh->axisymmetric = input.axisymmetric;
+  if (!input.axisymmetric) return mesh;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& x : mesh->nodes) least = std::min(least, x[0]);
+  if (least < -round_off * largest_coordinate(*mesh)) {
+    throw InputError("in a body of revolution x is the distance from the axis, and the mesh lies on its positive side",
+                     fmt::format("a node at x = {:g}", least), "move the mesh, or leave out axisymmetric",
+                     input.mesh.position);
+  }
+  return mesh;
+}
+
+/// On the axis of a body of revolution nothing moves off it.
+template <int Dim>
+void hold_axis(Body<Dim>& body) {
+  if (!body.mesh->axisymmetric) return;
+  const double near = round_off * largest_coordinate(*body.mesh);
+  std::vector<int> axis;
+  for (int n = 0; n < body.mesh->node_count(); ++n) {
+    if (body.mesh->nodes[n][0] <= near) axis.push_back(n);
+  }
+  fix(body.conditions, axis, 0);
 }
 
 /// Nodes within round-off of the segment.
@@ -41,11 +80,7 @@ std::vector<int> nodes_on(const Mesh<2>& mesh, const std::array<Vec<2>, 2>& line
 
 /// Nodes in the box, within round-off of the mesh's size.
 std::vector<int> nodes_in(const Mesh<3>& mesh, const BoxOf<3>& box) {
-  double largest = 0;
-  for (const auto& x : mesh.nodes) {
-    for (const double coordinate : x) largest = std::max(largest, std::abs(coordinate));
-  }
-  const double tolerance = 1e-9 * largest;
+  const double tolerance = round_off * largest_coordinate(mesh);
   std::vector<int> nodes;
   for (int n = 0; n < mesh.node_count(); ++n) {
     bool inside = true;
@@ -112,6 +147,7 @@ std::vector<int> nodes_of(const Mesh<Dim>& mesh, const input::BoundaryInput& inp
 
 template <int Dim>
 void set_conditions(Body<Dim>& body, const input::CaseOf<Dim>& input) {
+  hold_axis(body);
   for (const auto& boundary : input.boundaries) {
     const auto nodes = nodes_of(*body.mesh, boundary);
     const auto fixed = boundary.fixed();
@@ -133,13 +169,15 @@ void set_conditions(Body<Dim>& body, const input::CaseOf<Dim>& input) {
 /// The points of a region where they start, without their state.
 template <int Dim>
 Block<Dim> make_block(const input::RegionInputOf<Dim>& region, const input::MaterialInput& material,
-                      const FillingOf<Dim>& filling, int first_id) {
+                      const FillingOf<Dim>& filling, bool axisymmetric, int first_id) {
   Block<Dim> block(region.name, material.model);
   resize(block, static_cast<int>(filling.position.size()));
   auto& points = block.points;
   for (int i = 0; i < block.size(); ++i) {
-    points.volume[i] = points.initial_volume[i] = filling.volume[i];
-    points.mass[i] = material.density * filling.volume[i];
+    // An area times its centroid's distance from the axis is its volume per radian exactly (Pappus).
+    const double volume = filling.volume[i] * (axisymmetric ? filling.position[i][0] : 1.0);
+    points.volume[i] = points.initial_volume[i] = volume;
+    points.mass[i] = material.density * volume;
     points.id[i] = first_id + i;
     for (int j = 0; j < Dim; ++j) {
       points.x[j][i] = filling.position[i][j];
@@ -169,7 +207,7 @@ void check_overlap(const std::vector<input::RegionInputOf<Dim>>& regions, const 
 
 template <int Dim>
 Body<Dim> build_body(const input::CaseOf<Dim>& input) {
-  Body<Dim> body(make_mesh(input.mesh, input.method.shape), input.gravity);
+  Body<Dim> body(make_mesh(input), input.gravity);
   std::vector<FillingOf<Dim>> fillings;
   std::vector<typename OverburdenOf<Dim>::Layer> layers;
   for (const auto& region : input.regions) {
@@ -185,7 +223,8 @@ Body<Dim> build_body(const input::CaseOf<Dim>& input) {
   int first_id = 0;
   for (std::size_t r = 0; r < input.regions.size(); ++r) {
     const auto& region = input.regions[r];
-    body.blocks.push_back(make_block(region, input.materials[region.material], fillings[r], first_id));
+    body.blocks.push_back(
+        make_block(region, input.materials[region.material], fillings[r], input.axisymmetric, first_id));
     first_id += body.blocks.back().size();
   }
   set_conditions(body, input);

@@ -198,6 +198,7 @@ void Results<Dim>::summary(const Body<Dim>& body, const Ledger<Dim>& ledger, con
                                        {"status", record.status},
                                        {"message", record.message},
                                        {"dimension", Dim},
+                                       {"axisymmetric", input_.axisymmetric},
                                        {"points", body.point_count()},
                                        {"elements", body.mesh->element_count()},
                                        {"threads", record.threads},

@@ -143,9 +143,10 @@ std::string check_in(const input::CaseOf<Dim>& input) {
       mass += block.points.mass[i];
       volume += block.points.volume[i];
     }
-    text += fmt::format(Dim == 2 ? "    region \"{}\": {} points, area {:.6g} m2, mass {:.6g} per m\n"
-                                 : "    region \"{}\": {} points, volume {:.6g} m3, mass {:.6g}\n",
-                        block.name, block.size(), volume, mass);
+    const bool area = Dim == 2 && !input.axisymmetric;
+    const char* share = input.axisymmetric ? " per radian" : area ? " per m" : "";
+    text += fmt::format("    region \"{}\": {} points, {} {:.6g} {}{}, mass {:.6g}{}\n", block.name, block.size(),
+                        area ? "area" : "volume", volume, area ? "m2" : "m3", area ? "" : share, mass, share);
   }
   const double critical = critical_time_step(body);
   const double dt = input.method.safety * critical;

@@ -33,16 +33,19 @@ template <int Dim>
 void make_room(Body<Dim>& body) {
   const auto elements = std::min(body.mesh->types.size(), 4 * static_cast<std::size_t>(body.active.size()) + 1000);
   const auto row = static_cast<std::size_t>(body.assembly.row()), places = elements * row;
+  const auto padded = padded_row(body.assembly.row());
   for (auto& block : body.blocks) reserve_order(block, elements);
   body.active.element.reserve(elements);
   body.active.fresh.reserve(elements);
-  body.assembly.reserve(elements, row);
+  body.assembly.reserve(elements, row, place_chunk);
   auto& buffers = body.buffers;
   buffers.inside.reserve(elements);
   buffers.weight.reserve(elements);
-  buffers.shift.reserve(places);
+  buffers.shift.reserve(elements * padded * Dim);
+  if (body.mesh->axisymmetric) buffers.hoop_shift.reserve(elements * padded);
+  buffers.mass_matrix.reserve(elements * mass_matrix_row(body.assembly.row()));
   buffers.sums.reserve(places * transfer::node_sums<Dim>);
-  buffers.momentum.reserve(places * Dim);
+  buffers.momentum.reserve(places * transfer::momentum_size<Dim>);
   buffers.books.reserve(places / element_chunk + 1);
 }
 
@@ -88,7 +91,7 @@ template <int Dim>
 void rebuild(Body<Dim>& body) {
   auto& buffers = body.buffers;
   const auto& active = body.active;
-  body.assembly.rebuild(*body.mesh, active);
+  body.assembly.rebuild(*body.mesh, active, place_chunk);
   const auto slots = static_cast<std::size_t>(active.size()), places = body.assembly.places();
   buffers.inside.resize(slots);
   for (int slot = 0; slot < active.size(); ++slot) {
@@ -96,11 +99,14 @@ void rebuild(Body<Dim>& body) {
     buffers.inside[slot] = std::all_of(around.begin(), around.end(), [&](int e) { return active.slot[e] >= 0; });
   }
   buffers.weight.assign(slots, 1.0);
-  buffers.shift.resize(places);
+  buffers.shift.resize(slots * padded_row(body.assembly.row()) * Dim);
+  if (body.mesh->axisymmetric) buffers.hoop_shift.resize(slots * padded_row(body.assembly.row()));
+  buffers.mass_matrix.resize(slots * mass_matrix_row(body.assembly.row()));
   buffers.sums.resize(places * transfer::node_sums<Dim>);
-  buffers.momentum.resize(places * Dim);
+  buffers.momentum.resize(places * transfer::momentum_size<Dim>);
   buffers.node.resize(body.mesh->nodes.size());
-  buffers.v_next.resize(body.mesh->nodes.size());
+  buffers.motion.resize(body.mesh->nodes.size());
+  buffers.a_dt.resize(body.mesh->nodes.size());
   buffers.resistance.resize(body.mesh->nodes.size());
 }
 

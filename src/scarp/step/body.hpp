@@ -11,7 +11,7 @@
 #include "scarp/mesh/mesh.hpp"
 #include "scarp/points/points.hpp"
 #include "scarp/step/books.hpp"
-#include "scarp/transfer/strains.hpp"
+#include "scarp/transfer/transfer.hpp"
 
 namespace scarp {
 
@@ -19,8 +19,8 @@ namespace scarp {
 template <int Dim>
 struct Node {
   double m = 0;           ///< eq. 1
-  Vec<Dim> v{};           ///< v^t; after step 5, v^{t+dt} (eq. 8)
-  Vec<Dim> a{};           ///< eq. 5
+  double per_mass = 0;    ///< 1 / m
+  Vec<Dim> v{};           ///< v^t
   std::uint8_t held = 0;  ///< bit j set where the conditions hold component j
 };
 
@@ -31,20 +31,25 @@ struct Resistance {
   Vec<Dim> F_friction{};  ///< of a wall
 };
 
-/// Buffers of a step. Rows of elements: the part of local node i of the active element in slot s is at s · row + i.
+/// Buffers of a step.
 template <int Dim>
 struct Buffers {
-  std::vector<std::uint8_t> inside;  ///< of each slot: are all elements around it active, too?
-  std::vector<double> weight;        ///< of each slot: w of its quadrature
-  std::vector<Vec<Dim>> shift;       ///< rows: s_i of its quadrature
-  std::vector<double> sums;          ///< rows: transfer::node_sums numbers for each local node
-  std::vector<double> momentum;      ///< rows: Dim numbers for each local node
+  // Of each slot:
+  std::vector<std::uint8_t> inside;  ///< are all elements around it active, too?
+  std::vector<double> weight;        ///< w of its quadrature
+  std::vector<double> shift;         ///< s_i of its quadrature
+  std::vector<double> hoop_shift;    ///< the same of N_i / r, in a body of revolution
+  std::vector<double> mass_matrix;   ///< M_ij, where elements keep it
+  // Of each place of the assembly:
+  std::vector<double> sums;      ///< transfer::node_sums numbers
+  std::vector<double> momentum;  ///< transfer::momentum_size numbers
   // Of every node of the mesh, valid for active ones:
   std::vector<Node<Dim>> node;
-  std::vector<Vec<Dim>> v_next;             ///< v^t + a dt with its conditions, for the PIC share; where there is one
-  std::vector<Resistance<Dim>> resistance;  ///< with damping, and where nodes are not free
-  std::vector<Strains<Dim>> strains;        ///< of each thread
-  std::vector<StepBooks<Dim>> books;        ///< of each chunk
+  std::vector<transfer::Motion<Dim>> motion;
+  std::vector<std::array<double, row_size<Dim>>> a_dt;  ///< a dt; where there is a PIC share
+  std::vector<Resistance<Dim>> resistance;              ///< with damping, and where nodes are not free
+  std::vector<Strains<Dim>> strains;                    ///< of each thread
+  std::vector<StepBooks<Dim>> books;                    ///< of each chunk
 };
 
 /// Soil on its background mesh. The mesh is held by pointer, so that it stays where the locator saw it.
@@ -67,8 +72,17 @@ struct Body {
   int point_count() const;
 };
 
-/// Sweeps over elements go in chunks of this many, whose strain increments stay in the innermost cache.
-inline constexpr int element_chunk = 64;
+/// Sweeps over elements go in chunks of this many: those that add to places of their nodes in larger ones, with fewer
+/// places; the one that hands strain increments to the law in such whose increments stay in the innermost cache.
+inline constexpr int place_chunk = 256, element_chunk = 64;
+
+/// Numbers that an element of up to `row` nodes keeps for a component of its nodes, and for its mass matrix.
+inline std::size_t padded_row(int row) {
+  return static_cast<std::size_t>(row <= 4 ? 4 : (row + 7) / 8 * 8);
+}
+inline std::size_t mass_matrix_row(int row) {
+  return row <= transfer::most_nodes_with_mass_matrix ? static_cast<std::size_t>(row) * padded_row(row) : 0;
+}
 
 /// Finds the element of every point anew and prepares the first step; displacements count from here. Throws InputError
 /// where a point is outside the mesh.

@@ -11,45 +11,45 @@ namespace {
 
 constexpr int node_chunk = 256;
 
-/// f(k, n, part) for active node k, number n of the mesh.
+/// f(first, last, part) for chunks of the active nodes.
 template <int Dim, class F>
-void for_each_node(Body<Dim>& body, StepBooks<Dim>& books, F&& f) {
-  exec::sum_over_chunks(body.assembly.size(), node_chunk, body.buffers.books, books,
-                        [&](int first, int last, StepBooks<Dim>& part) {
-                          for (int k = first; k < last; ++k) f(k, body.assembly.node(k), part);
-                        });
+void for_each_chunk(Body<Dim>& body, StepBooks<Dim>& books, F&& f) {
+  exec::sum_over_chunks(body.assembly.size(), node_chunk, body.buffers.books, books, f);
 }
 
-/// Step 2: m_n, p_n and F_n^int, from the elements around a node.
-template <int Dim>
-std::array<double, transfer::node_sums<Dim>> assembled(const Body<Dim>& body, int k) {
-  constexpr int Q = transfer::node_sums<Dim>;
-  std::array<double, Q> sum{};
+/// Step 2: the sum over the places of active node k, n numbers each.
+template <int n, int Dim>
+std::array<double, n> gathered(const Body<Dim>& body, int k, const std::vector<double>& numbers) {
+  std::array<double, n> sum{};
   body.assembly.gather(k, [&](int place) {
-    const double* part = body.buffers.sums.data() + static_cast<std::size_t>(place) * Q;
-    for (int q = 0; q < Q; ++q) sum[q] += part[q];
+    const double* part = numbers.data() + static_cast<std::size_t>(place) * n;
+    for (int q = 0; q < n; ++q) sum[q] += part[q];
   });
   return sum;
 }
 
-/// Step 3: a_n = (F_grav − F_int) / m_n (eq. 5) with local damping against the motion, and the conditions.
+/// Step 3: a_n = (F_grav − F_int) / m_n (eq. 5) with local damping against the motion, and the conditions; and by what
+/// it changes the velocities of points (step 4): c = φ a dt + (1 − φ) ṽ, ṽ = v^t + a dt with the conditions.
 template <int Dim>
-void accelerate(Body<Dim>& body, int n, const double* sum, double dt, const StepSettings& settings) {
+Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const StepSettings& settings) {
   Node<Dim>& node = body.buffers.node[n];
   node.m = sum[0];
+  node.per_mass = 1 / node.m;
   node.held = 0;
   const double *p = sum + 1, *F_int = p + Dim;
-  const double per_mass = 1 / node.m;
   const bool free = is_free(body.conditions, n);
   Resistance<Dim> resistance;
+  Vec<Dim> a;
   for (int j = 0; j < Dim; ++j) {
     const double F = node.m * body.gravity[j] - F_int[j];
-    node.v[j] = p[j] * per_mass;
-    if (node.v[j] != 0) resistance.F_damping[j] = -std::copysign(settings.damping * std::abs(F), node.v[j]);
-    node.a[j] = (F + resistance.F_damping[j]) * per_mass;
+    node.v[j] = p[j] * node.per_mass;
+    if (settings.damping != 0 && node.v[j] != 0) {
+      resistance.F_damping[j] = -std::copysign(settings.damping * std::abs(F), node.v[j]);
+    }
+    a[j] = (F + resistance.F_damping[j]) * node.per_mass;
   }
   if (!free) {
-    const auto reaction = constrain_acceleration<Dim>(body.conditions, n, node.m, node.v, dt, node.a);
+    const auto reaction = constrain_acceleration<Dim>(body.conditions, n, node.m, node.v, dt, a);
     node.held = reaction.held;
     resistance.F_friction = reaction.friction;
     for (int j = 0; j < Dim; ++j) {
@@ -57,10 +57,17 @@ void accelerate(Body<Dim>& body, int n, const double* sum, double dt, const Step
     }
   }
   if (!free || settings.damping != 0) body.buffers.resistance[n] = resistance;
-  if (settings.flip == 1) return;
-  Vec<Dim>& v_next = body.buffers.v_next[n];
-  for (int j = 0; j < Dim; ++j) v_next[j] = node.v[j] + node.a[j] * dt;
+  auto& motion = body.buffers.motion[n];
+  for (int j = 0; j < Dim; ++j) motion.dv(j) = a[j] * dt;
+  if (settings.flip == 1) return a;
+  Vec<Dim> v_next;
+  for (int j = 0; j < Dim; ++j) {
+    body.buffers.a_dt[n][j] = a[j] * dt;
+    v_next[j] = node.v[j] + a[j] * dt;
+  }
   if (!free) constrain_velocity<Dim>(body.conditions, n, node.held, v_next);
+  for (int j = 0; j < Dim; ++j) motion.dv(j) = settings.flip * a[j] * dt + (1 - settings.flip) * v_next[j];
+  return a;
 }
 
 /// The resistance that accelerate() has left; none where it left none.
@@ -73,20 +80,27 @@ Resistance<Dim> resistance_at(const Body<Dim>& body, int n, double damping) {
 
 template <int Dim>
 void accelerate_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
-  for_each_node(body, books, [&](int k, int n, StepBooks<Dim>& part) {
-    const auto sum = assembled(body, k);
-    Node<Dim>& node = body.buffers.node[n];
-    if (sum[0] < body.least_mass) {
-      node = {};
-      body.buffers.v_next[n] = {};
-      return;
+  for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>& part) {
+    double unbalanced = 0, weight = 0;
+    for (int k = first; k < last; ++k) {
+      const int n = body.assembly.node(k);
+      const auto sum = gathered<transfer::node_sums<Dim>>(body, k, body.buffers.sums);
+      if (sum[0] < body.least_mass) {
+        body.buffers.node[n] = {};
+        body.buffers.motion[n] = {};
+        body.buffers.a_dt[n] = {};
+        continue;
+      }
+      const auto a = accelerate(body, n, sum.data(), dt, settings);
+      const Node<Dim>& node = body.buffers.node[n];
+      const auto resistance = resistance_at(body, n, settings.damping);
+      for (int j = 0; j < Dim; ++j) {
+        if (!(node.held & (1u << j))) unbalanced += std::abs(node.m * a[j] - resistance.F_damping[j]);
+        weight += std::abs(node.m * body.gravity[j]);
+      }
     }
-    accelerate(body, n, sum.data(), dt, settings);
-    const auto resistance = resistance_at(body, n, settings.damping);
-    for (int j = 0; j < Dim; ++j) {
-      if (!(node.held & (1u << j))) part.unbalanced_force += std::abs(node.m * node.a[j] - resistance.F_damping[j]);
-      part.weight += std::abs(node.m * body.gravity[j]);
-    }
+    part.unbalanced_force = unbalanced;
+    part.weight = weight;
   });
 }
 
@@ -94,23 +108,33 @@ void accelerate_nodes(Body<Dim>& body, double dt, const StepSettings& settings, 
 /// bit. Gravity works on the points' displacements: Σ m_p du_p = Σ m_n v_n dt.
 template <int Dim>
 void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
-  for_each_node(body, books, [&](int k, int n, StepBooks<Dim>& part) {
-    Node<Dim>& node = body.buffers.node[n];
-    if (node.m < body.least_mass) return;
-    Vec<Dim> p{};
-    body.assembly.gather(k, [&](int place) {
-      for (int j = 0; j < Dim; ++j) p[j] += body.buffers.momentum[static_cast<std::size_t>(place) * Dim + j];
-    });
-    const double per_mass = 1 / node.m;
-    const auto resistance = resistance_at(body, n, settings.damping);
-    for (int j = 0; j < Dim; ++j) {
-      const double v = p[j] * per_mass, path = 0.5 * (node.v[j] + v) * dt;
-      part.dissipation_damping -= resistance.F_damping[j] * path;
-      part.dissipation_friction -= resistance.F_friction[j] * path;
-      node.v[j] = v;
+  for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>& part) {
+    double damping = 0, friction = 0, gravity = 0;
+    for (int k = first; k < last; ++k) {
+      const int n = body.assembly.node(k);
+      const Node<Dim>& node = body.buffers.node[n];
+      if (node.m < body.least_mass) continue;
+      const auto dp = gathered<transfer::momentum_size<Dim>>(body, k, body.buffers.momentum);
+      Vec<Dim> v;
+      for (int j = 0; j < Dim; ++j) v[j] = settings.flip * node.v[j] + dp[j] * node.per_mass;
+      if (settings.damping != 0 || !is_free(body.conditions, n)) {
+        const auto& resistance = body.buffers.resistance[n];
+        for (int j = 0; j < Dim; ++j) {
+          const double path = 0.5 * (node.v[j] + v[j]) * dt;
+          damping -= resistance.F_damping[j] * path;
+          friction -= resistance.F_friction[j] * path;
+        }
+        constrain_velocity<Dim>(body.conditions, n, node.held, v);
+      }
+      auto& motion = body.buffers.motion[n];
+      for (int j = 0; j < Dim; ++j) {
+        motion.du(j) = v[j] * dt;
+        gravity += node.m * body.gravity[j] * motion.du(j);
+      }
     }
-    if (!is_free(body.conditions, n)) constrain_velocity<Dim>(body.conditions, n, node.held, node.v);
-    for (int j = 0; j < Dim; ++j) part.work_gravity += node.m * body.gravity[j] * node.v[j] * dt;
+    part.dissipation_damping = damping;
+    part.dissipation_friction = friction;
+    part.work_gravity = gravity;
   });
 }
 

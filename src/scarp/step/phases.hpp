@@ -13,16 +13,16 @@ void map_points_to_elements(Body<Dim>& body, Quadrature choice, StepBooks<Dim>& 
 template <int Dim>
 void accelerate_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books);
 
-/// Steps 4 and 5: velocities of the points, then their momentum again for the local nodes.
+/// Steps 4 and 5: the momentum of the nodes after the points have changed their velocities.
 template <int Dim>
-void update_velocities(Body<Dim>& body, double dt, double flip, StepBooks<Dim>& books);
+void change_momentum(Body<Dim>& body, StepBooks<Dim>& books);
 
 /// Step 5, end: v_n^{t+dt} = p_n / m_n (eq. 8) with the conditions.
 template <int Dim>
 void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books);
 
-/// Steps 6 to 11 for the points of one chunk of elements after the other, so that what one step hands to the next stays
-/// in the cache.
+/// Step 4 for the points themselves, and steps 6 to 11 for the points of one chunk of elements after the other, so that
+/// what one step hands to the next stays in the cache.
 template <int Dim>
 void strain_stress_and_motion(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books);
 

@@ -95,6 +95,12 @@ void book_motion(const Body<Dim>& body, StepBooks<Dim>& books) {
   books.max_velocity = total.max_velocity;
 }
 
+/// Steps 4 and 5 ask for the points' velocities (eq. 6, with a PIC share 1 − φ) only to form momentum of them again
+/// (eq. 7). Both are linear: with c_j = φ a_j dt + (1 − φ) ṽ_j at the nodes
+///     v_p^{t+dt} = φ v_p + Σ_j c_j N_j,
+///     p_i^{t+dt} = Σ_p m_p v_p^{t+dt} N_i = φ p_i + Σ_j M_ij c_j,   M_ij = Σ_p m_p N_i N_j,
+/// so that step 5 needs M_ij, summed up in step 1, and no points; these take their v_p^{t+dt} with the sweep that moves
+/// them.
 template <int Dim>
 StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings) {
   StepBooks<Dim> books;
@@ -104,10 +110,10 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
   };
   prepare_threads(body);
   timed(Phase::points_to_nodes, [&] { step::map_points_to_elements(body, settings.quadrature, books); });  // 1, eqs 1–4
-  timed(Phase::nodes, [&] { step::accelerate_nodes(body, dt, settings, books); });             // 2 and 3, eq. 5
-  timed(Phase::velocities, [&] { step::update_velocities(body, dt, settings.flip, books); });  // 4 and 5, eqs 6 and 7
-  timed(Phase::nodes, [&] { step::velocities_of_nodes(body, dt, settings, books); });          // 5, eq. 8
-  step::strain_stress_and_motion(body, dt, settings, books);          // 6 to 11, eqs 9–19 and section 3
+  timed(Phase::nodes, [&] { step::accelerate_nodes(body, dt, settings, books); });     // 2 and 3, eq. 5
+  timed(Phase::velocities, [&] { step::change_momentum(body, books); });               // 4 and 5, eqs 6 and 7
+  timed(Phase::nodes, [&] { step::velocities_of_nodes(body, dt, settings, books); });  // 5, eq. 8
+  step::strain_stress_and_motion(body, dt, settings, books);          // 4, 6 to 11, eqs 6, 9–19 and section 3
   timed(Phase::order, [&] { order_points(body, settings, books); });  // 11
   return books;
 }

@@ -1,37 +1,33 @@
 // Local coordinates of a few points in their element.
 #pragma once
 
-#include <array>
-#include <type_traits>
-
 #include "scarp/mesh/basis.hpp"
 #include "scarp/points/lanes.hpp"
 #include "scarp/points/points.hpp"
+#include "scarp/transfer/batches.hpp"
 
 namespace scarp::transfer {
 
 /// Half the edge of a square or cube of the volume that a point started with: the domain of a point of uniform GIMP.
-template <class T>
-inline T half_edge(const T& volume, std::integral_constant<int, 2>) {
-  return T(0.5) * sqrt(volume);
-}
-template <class T>
-inline T half_edge(const T& volume, std::integral_constant<int, 3>) {
-  return T(0.5) * cbrt(volume);
+template <int Dim, class T>
+inline T half_edge(const T& volume) {
+  if constexpr (Dim == 2) {
+    return T(0.5) * sqrt(volume);
+  } else {
+    return T(0.5) * cbrt(volume);
+  }
 }
 
 /// What the cell's shape() and gradients() take of these points.
-template <class Basis, class T>
-inline auto local_coordinates(const typename Basis::Cell& cell, const Points<Basis::dim>& points,
-                              const Lanes<T>& lanes) {
-  std::array<T, Basis::dim> at;
+template <class Basis, class Points, class Lanes>
+inline auto local_coordinates(const typename Basis::Cell& cell, const Points& points, const Lanes& lanes) {
   const auto& columns = Basis::stores_local ? points.xi : points.x;
-  for (int j = 0; j < Basis::dim; ++j) at[j] = lanes.load(columns[j]);
+  std::array<decltype(lanes.load(columns[0])), Basis::dim> at;
+  repeat<Basis::dim>([&](auto j) { at[j] = lanes.load(columns[j]); });
   if constexpr (Basis::stores_local) {
     return at;
   } else if constexpr (Basis::has_domains) {
-    const T volume = lanes.load(points.initial_volume);
-    return cell.local(at, half_edge(volume, std::integral_constant<int, Basis::dim>{}));
+    return cell.local(at, half_edge<Basis::dim>(lanes.load(points.initial_volume)));
   } else {
     return cell.local(at);
   }

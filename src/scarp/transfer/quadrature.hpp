@@ -9,38 +9,63 @@
 // work that the nodal forces do). A uniform stress then has no internal force inside the soil and a linear velocity
 // field has its exact gradient, wherever the points are. In a simplex s_i = 0.
 //
+// In a body of revolution N_i / r, the circumference's part, is corrected in the same way, with ∫ N_i dA as its
+// integral.
+//
 // The sums over the points need no second pass: Σ B̂_iᵀ σ_p Ω̂_p = w (Σ B_iᵀ σ_p Ω_p + s_iᵀ Σ σ_p Ω_p).
 #pragma once
 
 #include <array>
 
-#include "scarp/base/vec.hpp"
+#include "scarp/transfer/at_nodes.hpp"
 
 namespace scarp::transfer {
 
+/// Numbers of the local nodes that only a body of revolution has.
+template <class Basis>
+using Hoop = std::array<Nodal<Basis>, is_axisymmetric<Basis> ? 1 : 0>;
+
 /// What the step uses for an element's points: w and s_i; as constructed, eq. 4 as printed.
-template <int Dim, int Nodes>
+template <class Basis>
 struct Quadrature {
   double weight = 1;
-  std::array<Vec<Dim>, Nodes> shift{};  ///< [1/m]
+  std::array<Nodal<Basis>, Basis::dim> shift;  ///< [1/m]
+  Hoop<Basis> hoop_shift;                      ///< of N_i / r [1/m]
+
+  Quadrature() {
+    repeat<nodal_batches<Basis>>([&](auto b) {
+      repeat<Basis::dim>([&](auto j) { shift[j][b] = Lane<Basis>(0.0); });
+      for (auto& of_nodes : hoop_shift) of_nodes[b] = Lane<Basis>(0.0);
+    });
+  }
 };
 
-/// The quadrature of an element full of soil, from Σ Ω_p and Σ Ω_p B_i over its points. Points that fill less than half
-/// of the element, or more than twice, are no quadrature of it: they keep eq. 4.
+/// The quadrature of an element full of soil, from Σ Ω_p, Σ Ω_p B_i and (in a body of revolution) Σ Ω_p N_i / r over
+/// its points. Points that fill less than half of the element, or more than twice, are no quadrature of it: they keep
+/// eq. 4.
 template <class Basis>
-Quadrature<Basis::dim, Basis::nodes> full_element(const typename Basis::Cell& cell, double volume,
-                                                  const double* gradient) {
-  Quadrature<Basis::dim, Basis::nodes> q;
+inline Quadrature<Basis> full_element(const typename Basis::Cell& cell, double volume,
+                                      const std::array<Nodal<Basis>, Basis::dim>& gradient, const Hoop<Basis>& hoop) {
+  using T = Lane<Basis>;
+  Quadrature<Basis> q;
   double V;
   std::array<Vec<Basis::dim>, Basis::nodes> exact;
-  cell.integrals(V, exact);
+  std::array<double, Basis::nodes> exact_hoop;
+  if constexpr (is_axisymmetric<Basis>) {
+    cell.integrals(V, exact, exact_hoop);
+  } else {
+    cell.integrals(V, exact);
+  }
   if (!(volume > 0.5 * V && volume < 2 * V)) return q;
-  q.weight = V / volume;
   const double per_V = 1 / V, per_volume = 1 / volume;
-  for (int i = 0; i < Basis::nodes; ++i) {
-    for (int j = 0; j < Basis::dim; ++j) {
-      q.shift[i][j] = exact[i][j] * per_V - gradient[i * Basis::dim + j] * per_volume;
-    }
+  q.weight = V * per_volume;
+  repeat<Basis::dim>([&](auto j) {
+    const auto mean = nodal<Basis>([&](int i) { return exact[i][j] * per_V; });
+    repeat<nodal_batches<Basis>>([&](auto b) { q.shift[j][b] = mean[b] - gradient[j][b] * T(per_volume); });
+  });
+  if constexpr (is_axisymmetric<Basis>) {
+    const auto mean = nodal<Basis>([&](int i) { return exact_hoop[i] * per_V; });
+    repeat<nodal_batches<Basis>>([&](auto b) { q.hoop_shift[0][b] = mean[b] - hoop[0][b] * T(per_volume); });
   }
   return q;
 }

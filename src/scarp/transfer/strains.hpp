@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scarp/points/points.hpp"
+#include "scarp/transfer/batches.hpp"
 
 namespace scarp {
 
@@ -15,9 +16,9 @@ struct Strains {
   std::array<Column, sym_size<Dim>> deps;   ///< strain increment (eq. 10), Mandel components, tension positive
   std::array<Column, spin_size<Dim>> spin;  ///< spin increment (eq. 11): W_xy (, W_yz, W_zx)
   Column volume;                            ///< w Ω_p in the middle of the step: what the work of stress is taken over
-  Column per_mass;  ///< max(1, w) Ω_p / m_p: where a point stands for more, its stiffness does too
-  Column speed2;    ///< |v_p|²
-  Column size;      ///< least height of the element
+  Column per_mass;  ///< max(1, w) Ω_p / (m_p h²): where a point stands for more, its stiffness does too; h is the least
+                    ///< height of its element
+  Column speed2;  ///< |v_p|² / h²
 
   /// Room for so many points, and for a batch that starts at the last of them; twice that where it has to grow.
   void reserve(int points) {
@@ -26,7 +27,7 @@ struct Strains {
     const std::size_t room = 2 * static_cast<std::size_t>(points) + widest;
     for (auto& column : deps) column.resize(room);
     for (auto& column : spin) column.resize(room);
-    for (auto* column : {&volume, &per_mass, &speed2, &size}) column->resize(room);
+    for (auto* column : {&volume, &per_mass, &speed2}) column->resize(room);
   }
 };
 
@@ -44,17 +45,18 @@ inline T determinant_of_stretch(const std::array<std::array<T, 3>, 3>& L) {
          L[0][2] * (L[1][0] * L[2][1] - y * L[2][0]);
 }
 
-/// Strain and spin increments (eqs 10, 11) of L dt to the places `at` on. Whole batches are written: what comes behind
-/// the last point of an element is overwritten by the next.
+/// Strain and spin increments (eqs 10, 11) of L dt to the places `at` on; in the plane `hoop` is that of the
+/// circumference, zero in plane strain. Whole batches are written: what comes behind the last point of an element is
+/// overwritten by the next.
 template <int Dim, class T>
-inline void store_strains(const std::array<std::array<T, Dim>, Dim>& L, Strains<Dim>& strains, int at) {
-  for (int j = 0; j < Dim; ++j) L[j][j].store_unaligned(strains.deps[j].data() + at);
-  if constexpr (Dim == 2) T(0.0).store_unaligned(strains.deps[2].data() + at);
-  for (int l = 0; l < spin_size<Dim>; ++l) {  // xy, yz, zx
-    const int j = l, k = (l + 1) % Dim;
-    (T(0.5 * sqrt2) * (L[j][k] + L[k][j])).store_unaligned(strains.deps[3 + l].data() + at);
-    (T(0.5) * (L[j][k] - L[k][j])).store_unaligned(strains.spin[l].data() + at);
-  }
+inline void store_strains(const std::array<std::array<T, Dim>, Dim>& L, const T& hoop, Strains<Dim>& strains, int at) {
+  repeat<Dim>([&](auto j) { L[j][j].store_unaligned(strains.deps[j].data() + at); });
+  if constexpr (Dim == 2) hoop.store_unaligned(strains.deps[2].data() + at);
+  repeat<spin_size<Dim>>([&](auto j) {  // xy, yz, zx
+    constexpr int k = (j + 1) % Dim;
+    (T(0.5 * sqrt2) * (L[j][k] + L[k][j])).store_unaligned(strains.deps[3 + j].data() + at);
+    (T(0.5) * (L[j][k] - L[k][j])).store_unaligned(strains.spin[j].data() + at);
+  });
 }
 
 }  // namespace transfer

@@ -1,6 +1,6 @@
 // Every basis in every element of small meshes: what shape functions must do whatever they are, and those of grids
 // against their definitions (grid_oracles.hpp).
-#include "scarp/mesh/basis.hpp"
+#include "scarp/mesh/with_basis.hpp"
 
 #include <gtest/gtest.h>
 
@@ -153,6 +153,20 @@ TEST(Basis, SumsToOneAndReproducesALinearFieldInSpace) {
   for (const auto& mesh : all_meshes<3>()) expect_one_and_linear(mesh);
 }
 
+/// A line cuts a domain of 1e-9 or 1e-7 cells to the round-off of x, 1e-15; so its shares on either side, which slopes
+/// go with, to 1e-6.
+constexpr double narrow_slope_band = 1e-4;
+template <class Basis, int Dim>
+bool is_narrow(const Mesh<Dim>& mesh, const Vec<Dim>& x, double half) {
+  if (!Basis::has_domains || half == 0) return false;
+  bool narrow = half < 1e-6;
+  for (int d = 0; d < Dim; ++d) {
+    const double s = (x[d] - mesh.grid->origin[d]) / mesh.grid->spacing[d];
+    narrow = narrow || std::abs(s - std::round(s)) < 1e-6;
+  }
+  return narrow;
+}
+
 template <int Dim>
 void expect_definitions(const Mesh<Dim>& mesh) {
   for_points(mesh, 20, [&]<class Basis>(Basis, const auto& cell, int e, const auto& point, double half) {
@@ -169,15 +183,10 @@ void expect_definitions(const Mesh<Dim>& mesh) {
       sums.N[n] += N[i];
       for (int j = 0; j < Dim; ++j) sums.B[n][j] += B[i][j];
     }
-    // A line cuts a domain of 1e-9 or 1e-7 cells to the round-off of x, 1e-15; so its shares on either side to 1e-6.
-    bool narrow = Basis::has_domains && half > 0 && half < 1e-6;
-    for (int d = 0; d < Dim; ++d) {
-      const double s = (point.x[d] - mesh.grid->origin[d]) / mesh.grid->spacing[d];
-      narrow = narrow || (Basis::has_domains && std::abs(s - std::round(s)) < 1e-6);
-    }
+    const double band = is_narrow<Basis, Dim>(mesh, point.x, half) ? narrow_slope_band : slope_band;
     for (int n = 0; n < mesh.node_count(); ++n) {
       EXPECT_NEAR(sums.N[n], exact.N[n], value_band);
-      for (int j = 0; j < Dim; ++j) EXPECT_NEAR(sums.B[n][j], exact.B[n][j], narrow ? 1e-4 : slope_band);
+      for (int j = 0; j < Dim; ++j) EXPECT_NEAR(sums.B[n][j], exact.B[n][j], band);
     }
   });
 }
@@ -249,18 +258,28 @@ void expect_integrals(const Mesh<Dim>& mesh) {
         const typename Basis::Cell cell(mesh, e);
         double V, V_sum = 0;
         std::array<Vec<Dim>, Basis::nodes> g, sum{};
-        cell.integrals(V, g);
-        for_gauss_points(*mesh.grid, e, [&](const Vec<Dim>& x, double w) {
+        std::array<double, Basis::nodes> h{}, hoop_sum{};
+        if constexpr (is_axisymmetric<Basis>) {
+          cell.integrals(V, g, h);
+        } else {
+          cell.integrals(V, g);
+        }
+        for_gauss_points(*mesh.grid, e, [&](const Vec<Dim>& x, double area) {
           std::array<double, Basis::nodes> N;
           std::array<Vec<Dim>, Basis::nodes> B;
           cell.gradients(cell.local(x), N, B);
+          const double w = mesh.axisymmetric ? area * x[0] : area;
           V_sum += w;
-          for (int i = 0; i < Basis::nodes; ++i)
+          for (int i = 0; i < Basis::nodes; ++i) {
             for (int j = 0; j < Dim; ++j) sum[i][j] += w * B[i][j];
+            hoop_sum[i] += is_axisymmetric<Basis> ? area * N[i] : 0.0;
+          }
         });
-        EXPECT_NEAR(V, V_sum, value_band);
-        for (int i = 0; i < Basis::nodes; ++i)
-          for (int j = 0; j < Dim; ++j) EXPECT_NEAR(g[i][j], sum[i][j], value_band);
+        EXPECT_NEAR(V, V_sum, value_band * std::max(1.0, V));
+        for (int i = 0; i < Basis::nodes; ++i) {
+          for (int j = 0; j < Dim; ++j) EXPECT_NEAR(g[i][j], sum[i][j], value_band * std::max(1.0, V));
+          EXPECT_NEAR(h[i], hoop_sum[i], value_band);
+        }
       }
     });
   }
@@ -274,6 +293,16 @@ TEST(Basis, IntegratesItsGradientsOverACell) {
   }
 }
 
+// The same with r dA for the volume, and ∫ N_i dA for the circumference.
+TEST(Basis, IntegratesOverACellOfABodyOfRevolution) {
+  for (const auto functions : {GridFunctions::linear, GridFunctions::b_spline}) {
+    for (auto mesh : grids<2>(functions)) {
+      mesh.axisymmetric = true;
+      expect_integrals(mesh);
+    }
+  }
+}
+
 template <int Dim>
 void expect_lanes(const Mesh<Dim>& mesh) {
   using T = PointBatch<Dim>;
@@ -281,6 +310,7 @@ void expect_lanes(const Mesh<Dim>& mesh) {
     std::array<double, Basis::nodes> N;
     std::array<Vec<Dim>, Basis::nodes> B;
     cell.gradients(place_in<Basis, double>(cell, point.x, half, point.xi), N, B);
+    const double band = is_narrow<Basis, Dim>(mesh, point.x, half) ? narrow_slope_band : slope_band;
     // The point in the last lane, others beside it.
     std::array<T, Dim> x, xi;
     for (int d = 0; d < Dim; ++d) {
@@ -297,7 +327,7 @@ void expect_lanes(const Mesh<Dim>& mesh) {
     cell.gradients(place_in<Basis, T>(cell, x, half, xi), N_lanes, B_lanes);
     for (int i = 0; i < Basis::nodes; ++i) {
       EXPECT_NEAR(N_lanes[i].get(lanes_of<T> - 1), N[i], value_band);
-      for (int j = 0; j < Dim; ++j) EXPECT_NEAR(B_lanes[i][j].get(lanes_of<T> - 1), B[i][j], slope_band);
+      for (int j = 0; j < Dim; ++j) EXPECT_NEAR(B_lanes[i][j].get(lanes_of<T> - 1), B[i][j], band);
     }
   });
 }

@@ -107,23 +107,23 @@ AtNodes<Dim> functions_of_all_nodes(const Mesh<Dim>& mesh, int e, const Vec<Dim>
     const double h = grid.spacing[d];
     along[d] = functions_along_axis(grid.functions, grid.elements[d], h, (x[d] - grid.origin[d]) / h, half, at[d]);
   }
-  AtNodes<Dim> all;
+  AtNodes<Dim> all{std::vector<double>(mesh.nodes.size(), 0.0), std::vector<Vec<Dim>>(mesh.nodes.size())};
   for (int n = 0; n < mesh.node_count(); ++n) {
     std::array<int, Dim> place;
     int rest = n;
+    bool nothing = false;  // as at most nodes
     for (int d = 0; d < Dim; ++d) {
       place[d] = rest % static_cast<int>(along[d].value.size());
       rest /= static_cast<int>(along[d].value.size());
+      nothing = nothing || (along[d].value[place[d]] == 0 && along[d].slope[place[d]] == 0);
     }
-    double N = 1;
-    Vec<Dim> B;
-    B.fill(1);
+    if (nothing) continue;
+    all.N[n] = 1;
+    all.B[n].fill(1);
     for (int d = 0; d < Dim; ++d) {
-      N *= along[d].value[place[d]];
-      for (int k = 0; k < Dim; ++k) B[k] *= k == d ? along[d].slope[place[d]] : along[d].value[place[d]];
+      all.N[n] *= along[d].value[place[d]];
+      for (int k = 0; k < Dim; ++k) all.B[n][k] *= k == d ? along[d].slope[place[d]] : along[d].value[place[d]];
     }
-    all.N.push_back(N);
-    all.B.push_back(B);
   }
   return all;
 }

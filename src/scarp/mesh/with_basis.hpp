@@ -1,0 +1,50 @@
+// From the mesh to the basis of its elements, as a type.
+#pragma once
+
+#include "scarp/mesh/axisymmetric.hpp"
+#include "scarp/mesh/basis.hpp"
+#include "scarp/mesh/grid_bases.hpp"
+
+namespace scarp {
+namespace detail {
+
+template <int Dim, class F>
+inline void with_flat_basis(const Mesh<Dim>& mesh, const int* elements, int first, int last, F&& f) {
+  const auto all = [&](auto basis) {
+    for (int slot = first; slot < last; ++slot) f(basis, slot, elements[slot]);
+  };
+  if (mesh.grid) {
+    switch (mesh.grid->functions) {
+      case GridFunctions::linear:
+        return all(GridLinear<Dim>{});
+      case GridFunctions::gimp:
+        return all(GridGimp<Dim>{});
+      case GridFunctions::b_spline:
+        return all(GridSpline<Dim>{});
+    }
+  }
+  for (int slot = first; slot < last; ++slot) {
+    const int e = elements[slot];
+    with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) { f(Linear<Shape>{}, slot, e); });
+  }
+}
+
+}  // namespace detail
+
+/// f(basis, slot, element) for slots first ... last - 1 of a list of elements. The choice is made once for all on a
+/// grid, once per element elsewhere. A case asks for no body of
+/// revolution of points that are boxes.
+template <int Dim, class F>
+inline void with_basis(const Mesh<Dim>& mesh, const int* elements, int first, int last, F&& f) {
+  if constexpr (Dim == 2) {
+    if (mesh.axisymmetric) {
+      detail::with_flat_basis(mesh, elements, first, last, [&]<class Plane>(Plane, int slot, int e) {
+        if constexpr (!Plane::has_domains) f(Axisymmetric<Plane>{}, slot, e);
+      });
+      return;
+    }
+  }
+  detail::with_flat_basis(mesh, elements, first, last, f);
+}
+
+}  // namespace scarp
