@@ -60,6 +60,7 @@ package: deps
 	for arch in x86-64 x86-64-v3 x86-64-v4; do \
 	  cmake -S . -B build-package/$$arch -DCMAKE_BUILD_TYPE=Release -DSCARP_ARCH=$$arch -DSCARP_SHARED=ON -DSCARP_TESTS=OFF && \
 	  cmake --build build-package/$$arch --parallel $(JOBS) --target scarp || exit 1; done
+	rm -f build-package/scarp*.deb build-package/scarp-*.tar.gz
 	cpack --config build-package/x86-64/CPackConfig.cmake -B build-package
 	/usr/bin/python3 tools/check_package.py build-package/scarp-*.tar.gz
 
