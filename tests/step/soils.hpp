@@ -52,23 +52,14 @@ inline Mesh<2> revolved(Mesh<2> mesh) {
 inline AnyModel elastic() {
   return LinearElastic({1000.0, 0.3});
 }
+/// Constants that the subloading model and its viscoplastic form share.
+inline std::map<std::string, double> subloading_constants() {
+  return {{"kappa", .02}, {"lambda", .12}, {"nu", .3},   {"p_e", 5},  {"M", 1.0},
+          {"M_c", 1.3},   {"k", .78},      {"alpha", 1}, {"xi", .01}, {"c_R", 60},
+          {"c_beta", 5},  {"c_b", 20},     {"R_bf", 1},  {"c_a", 3},  {"p_atm", 101.325}};
+}
 inline AnyModel subloading() {
-  return *make_model("subloading", {{"kappa", .02},
-                                    {"lambda", .12},
-                                    {"nu", .3},
-                                    {"p_e", 5},
-                                    {"M", 1.0},
-                                    {"M_c", 1.3},
-                                    {"k", .78},
-                                    {"alpha", 1},
-                                    {"xi", .01},
-                                    {"c_R", 60},
-                                    {"c_beta", 5},
-                                    {"c_b", 20},
-                                    {"R_bf", 1},
-                                    {"c_a", 3},
-                                    {"p_atm", 101.325}})
-              .model;
+  return *make_model("subloading", subloading_constants()).model;
 }
 
 /// One of each law but umat, whose law is in a library of the user's, weak enough to yield in these tests.
@@ -78,10 +69,8 @@ inline std::vector<AnyModel> every_model() {
   const std::map<std::string, double> sand{{"E", 1000},          {"nu", .3},           {"c", .5},
                                            {"phi", 30},          {"psi", 5},           {"c_residual", .2},
                                            {"phi_residual", 25}, {"epsp_residual", .1}};
-  std::map<std::string, double> viscoplastic{
-      {"kappa", .02}, {"lambda", .12}, {"nu", .3},  {"p_e", 5},  {"M", 1.0},    {"M_c", 1.3},
-      {"k", .78},     {"alpha", 1},    {"xi", .01}, {"c_R", 60}, {"c_beta", 5}, {"c_b", 20},
-      {"R_bf", 1},    {"c_a", 3},      {"mu", 1},   {"n", 2},    {"R_m", 1.6},  {"p_atm", 101.325}};
+  auto viscoplastic = subloading_constants();
+  viscoplastic.insert({{"mu", 1}, {"n", 2}, {"R_m", 1.6}});
   std::vector<AnyModel> all{elastic(), subloading()};
   for (const auto& [name, constants] : std::vector<std::pair<std::string, std::map<std::string, double>>>{
            {"viscoplastic-subloading", viscoplastic},
