@@ -27,14 +27,14 @@ using State = Subloading::State<T, N>;
 template <int N>
 struct Columns {
   static constexpr int size = state_size<Subloading, N>();
-  std::vector<std::vector<double>> state, deps, spin;
+  std::vector<Column> state, deps, spin;
 };
 
 template <class T>
 constexpr int lanes = sizeof(T) / sizeof(double);
 
 template <class T>
-T load(const std::vector<double>& column, int i) {
+T load(const Column& column, int i) {
   if constexpr (lanes<T> == 1) {
     return column[static_cast<std::size_t>(i)];
   } else {
@@ -43,7 +43,7 @@ T load(const std::vector<double>& column, int i) {
 }
 
 template <class T>
-void store(const T& value, std::vector<double>& column, int i) {
+void store(const T& value, Column& column, int i) {
   if constexpr (lanes<T> == 1) {
     column[static_cast<std::size_t>(i)] = value;
   } else {
@@ -74,9 +74,9 @@ State<double, N> random_state(const Subloading& model, std::mt19937& generator) 
 template <int N>
 Columns<N> make_points(const Subloading& model) {
   Columns<N> c;
-  c.state.assign(Columns<N>::size, std::vector<double>(points));
-  c.deps.assign(N, std::vector<double>(points));
-  c.spin.assign(N == 4 ? 1 : 3, std::vector<double>(points));
+  c.state.assign(Columns<N>::size, Column(points));
+  c.deps.assign(N, Column(points));
+  c.spin.assign(N == 4 ? 1 : 3, Column(points));
   std::mt19937 generator(1);
   std::normal_distribution<double> normal;
   for (std::size_t at = 0; at < points;) {

@@ -157,7 +157,7 @@ class Update {
     books_.critical_dt = std::min(books_.critical_dt, 1 / rate);
   }
 
-  [[gnu::always_inline]] static Batch increment(const std::vector<double>& column, int at) {
+  [[gnu::always_inline]] static Batch increment(const Column& column, int at) {
     return Batch::load_unaligned(column.data() + at);
   }
 
@@ -253,7 +253,7 @@ void update_stresses(Block<Dim>& block, PointRange range, const Strains<Dim>& st
 
 template <int Dim>
 double critical_time_step(const Block<Dim>& block, const std::vector<double>& element_size,
-                          const ActiveElements& active, const std::vector<double>& weight) {
+                          const ActiveElements& active, const Column& weight) {
   const auto& points = block.points;
   double dt = std::numeric_limits<double>::infinity();
   for (int i = 0; i < block.size(); ++i) {
@@ -275,8 +275,8 @@ template void update_stresses<2>(Block<2>&, PointRange, const Strains<2>&, int, 
 template void update_stresses<3>(Block<3>&, PointRange, const Strains<3>&, int, double, const IntegrationSettings&,
                                  StressBooks&);
 template double critical_time_step<2>(const Block<2>&, const std::vector<double>&, const ActiveElements&,
-                                      const std::vector<double>&);
+                                      const Column&);
 template double critical_time_step<3>(const Block<3>&, const std::vector<double>&, const ActiveElements&,
-                                      const std::vector<double>&);
+                                      const Column&);
 
 }  // namespace scarp::exec

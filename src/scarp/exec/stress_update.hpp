@@ -38,7 +38,7 @@ void update_stresses(Block<Dim>& block, PointRange range, const Strains<Dim>& st
 /// each slot.
 template <int Dim>
 double critical_time_step(const Block<Dim>& block, const std::vector<double>& element_size,
-                          const ActiveElements& active, const std::vector<double>& weight);
+                          const ActiveElements& active, const Column& weight);
 
 /// Calls f(model, state of point i with N components, compression positive) for point i of a block.
 template <int Dim, class F>

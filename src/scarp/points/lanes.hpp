@@ -6,6 +6,7 @@
 #include <cstring>
 #include <vector>
 
+#include "scarp/base/column.hpp"
 #include "scarp/tensor/batch.hpp"
 
 namespace scarp {
@@ -17,53 +18,57 @@ struct PointRange {
 };
 
 /// The points order[0] ... order[count - 1] in the lanes of a batch T, count ≤ its size. Where they lie beside each
-/// other in the arrays (sorted points do, all but a few) and fill the lanes their values are loaded as one; otherwise
-/// one by one. Lanes
+/// other in the arrays (sorted points do, all but a few) their values are loaded at once; otherwise one by one. Lanes
 /// without a point are zero, so that they have no mass and no volume.
 template <class T>
 class Lanes {
  public:
   static constexpr int W = lanes_of<T>;
 
-  Lanes(const int* order, int count) : order_(order), count_(count), whole_(count == W) {
-    if (!whole_) return;
+  Lanes(const int* order, int count) : order_(order), count_(count) {
     int off = 0;
-    for (int l = 1; l < W; ++l) off |= order[l] - order[0] - l;
-    whole_ = off == 0;
+    for (int l = 1; l < count; ++l) off |= order[l] - order[0] - l;
+    beside_ = off == 0;
   }
 
   int count() const { return count_; }
   int point(int lane) const { return order_[lane]; }
 
-  [[gnu::always_inline]] T load(const std::vector<double>& column) const {
-    if (whole_) [[likely]]
-      return T::load_unaligned(column.data() + order_[0]);
-    return load_one_by_one(column);
+  [[gnu::always_inline]] T load(const Column& column) const {
+    if (!beside_) [[unlikely]]
+      return load_one_by_one(column);
+    const double* from = column.data() + order_[0];
+    return count_ == W ? T::load_unaligned(from) : load_first<T>(from, count_);
   }
 
-  [[gnu::always_inline]] void store(const T& value, std::vector<double>& column) const {
-    if (whole_) [[likely]] {
-      value.store_unaligned(column.data() + order_[0]);
-    } else {
+  [[gnu::always_inline]] void store(const T& value, Column& column) const {
+    if (!beside_) [[unlikely]] {
       store_one_by_one(value, column);
+      return;
+    }
+    double* to = column.data() + order_[0];
+    if (count_ == W) {
+      value.store_unaligned(to);
+    } else {
+      store_first(value, to, count_);
     }
   }
 
   void store(std::uint8_t value, std::vector<std::uint8_t>& column) const {
-    if (whole_) [[likely]] {
-      std::memset(column.data() + order_[0], value, W);
+    if (beside_) [[likely]] {
+      std::memset(column.data() + order_[0], value, static_cast<std::size_t>(count_));
     } else {
       for (int l = 0; l < count_; ++l) column[order_[l]] = value;
     }
   }
 
  private:
-  [[gnu::noinline]] T load_one_by_one(const std::vector<double>& column) const {
+  [[gnu::noinline]] T load_one_by_one(const Column& column) const {
     double lanes[W] = {};
     for (int l = 0; l < count_; ++l) lanes[l] = column[order_[l]];
     return T::load_unaligned(lanes);
   }
-  [[gnu::noinline]] void store_one_by_one(const T& value, std::vector<double>& column) const {
+  [[gnu::noinline]] void store_one_by_one(const T& value, Column& column) const {
     double lanes[W];
     value.store_unaligned(lanes);
     for (int l = 0; l < count_; ++l) column[order_[l]] = lanes[l];
@@ -71,7 +76,7 @@ class Lanes {
 
   const int* order_;
   int count_;
-  bool whole_;
+  bool beside_;
 };
 
 /// The points first ... first + W − 1 in the lanes of a batch: Lanes that need no questions asked.
@@ -84,8 +89,8 @@ class WholeLanes {
 
   static constexpr int count() { return W; }
   int point(int lane) const { return static_cast<int>(first_) + lane; }
-  T load(const std::vector<double>& column) const { return T::load_unaligned(column.data() + first_); }
-  void store(const T& value, std::vector<double>& column) const { value.store_unaligned(column.data() + first_); }
+  T load(const Column& column) const { return T::load_unaligned(column.data() + first_); }
+  void store(const T& value, Column& column) const { value.store_unaligned(column.data() + first_); }
 
  private:
   std::size_t first_;

@@ -13,9 +13,9 @@ struct Permute {
   const std::vector<int>& order;
   Spare& spare;
 
-  template <class Value>
-  void operator()(std::vector<Value>& column) const {
-    auto& arranged = std::get<std::vector<Value>>(spare);
+  template <class Array>
+  void operator()(Array& column) const {
+    auto& arranged = std::get<Array>(spare);
     arranged.resize(column.size());
     for (std::size_t i = 0; i < order.size(); ++i) arranged[i] = column[order[i]];
     column.swap(arranged);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "scarp/base/column.hpp"
 #include "scarp/base/vec.hpp"
 #include "scarp/material/models.hpp"
 #include "scarp/tensor/sym.hpp"
@@ -26,7 +27,6 @@ inline constexpr int spin_size = Dim == 2 ? 1 : 3;
 /// per point in each array; per metre of thickness in plane strain.
 template <int Dim>
 struct Points {
-  using Column = std::vector<double>;
   static constexpr int stress_size = sym_size<Dim>;
 
   Column mass;                            ///< m_p
@@ -65,13 +65,12 @@ struct Block {
   std::string name;
   AnyModel model;
   Points<Dim> points;
-  std::vector<std::vector<double>>
-      state;  ///< columns of the model's state without sigma; compression positive, as in the model
+  std::vector<Column> state;  ///< columns of the model's state without sigma; compression positive, as in the model
 
   // Order by element, kept by sort_by_element(): the points of the active element in slot s are
   // order[begin[s]] ... order[begin[s + 1] - 1].
   std::vector<int> order, begin;
-  std::tuple<std::vector<double>, std::vector<int>, std::vector<std::uint8_t>> spare;  ///< for arrange_in_order()
+  std::tuple<Column, std::vector<int>, std::vector<std::uint8_t>> spare;  ///< for arrange_in_order()
 
   int size() const { return points.size(); }
 };

@@ -36,13 +36,13 @@ template <int Dim>
 struct Buffers {
   // Of each slot:
   std::vector<std::uint8_t> inside;  ///< are all elements around it active, too?
-  std::vector<double> weight;        ///< w of its quadrature
-  std::vector<double> shift;         ///< s_i of its quadrature
-  std::vector<double> hoop_shift;    ///< the same of N_i / r, in a body of revolution
-  std::vector<double> mass_matrix;   ///< M_ij, where elements keep it
+  Column weight;                     ///< w of its quadrature
+  Column shift;                      ///< s_i of its quadrature
+  Column hoop_shift;                 ///< the same of N_i / r, in a body of revolution
+  Column mass_matrix;                ///< M_ij, where elements keep it
   // Of each place of the assembly:
-  std::vector<double> sums;      ///< transfer::node_sums numbers
-  std::vector<double> momentum;  ///< transfer::momentum_size numbers
+  Column sums;                   ///< transfer::node_sums numbers
+  Column momentum;               ///< transfer::momentum_size numbers
   // Of every node of the mesh, valid for active ones:
   std::vector<Node<Dim>> node;
   std::vector<transfer::Motion<Dim>> motion;

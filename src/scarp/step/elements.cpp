@@ -86,7 +86,7 @@ SCARP_FLATTEN void add_momentum(Body<Basis::dim>& body, int slot, int e) {
 
 /// Zero in the places of the elements from slot `first` on, n numbers each.
 template <int Dim>
-void clear_places(const Body<Dim>& body, int first, std::vector<double>& numbers, int n) {
+void clear_places(const Body<Dim>& body, int first, Column& numbers, int n) {
   const int chunk = first / place_chunk;
   std::fill(numbers.begin() + static_cast<std::ptrdiff_t>(body.assembly.first_place(chunk)) * n,
             numbers.begin() + static_cast<std::ptrdiff_t>(body.assembly.last_place(chunk)) * n, 0.0);

@@ -19,7 +19,7 @@ void for_each_chunk(Body<Dim>& body, StepBooks<Dim>& books, F&& f) {
 
 /// Step 2: the sum over the places of active node k, n numbers each.
 template <int n, int Dim>
-std::array<double, n> gathered(const Body<Dim>& body, int k, const std::vector<double>& numbers) {
+std::array<double, n> gathered(const Body<Dim>& body, int k, const Column& numbers) {
   std::array<double, n> sum{};
   body.assembly.gather(k, [&](int place) {
     const double* part = numbers.data() + static_cast<std::size_t>(place) * n;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <xsimd/xsimd.hpp>
 
 #include "scarp/tensor/scalar.hpp"
@@ -41,14 +42,31 @@ inline double fma(double a, double b, double c) {
 }
 using xsimd::fma;
 
+/// The bits of the first `count` lanes.
+inline constexpr unsigned first_bits(int count) {
+  return (1u << count) - 1u;
+}
+
+#if defined(__AVX__) && !defined(__AVX512VL__)
+namespace detail {
+/// All bits of the first `count` of four lanes.
+inline __m256i first_lanes(int count) {
+  alignas(32) static constexpr std::int64_t bits[8] = {-1, -1, -1, -1, 0, 0, 0, 0};
+  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(bits + 4 - count));
+}
+}  // namespace detail
+#endif
+
 /// The first `count` of a batch's doubles from memory, zero in the others; nothing behind them is touched.
 template <class T>
 inline T load_first(const double* from, int count) {
   constexpr int W = lanes_of<T>;
-#if defined(__AVX512F__) && defined(__AVX512VL__)
-  const auto mask = static_cast<__mmask8>((1u << count) - 1u);
+#if defined(__AVX512VL__)
+  const auto mask = static_cast<__mmask8>(first_bits(count));
   if constexpr (W == 8) return T(_mm512_maskz_loadu_pd(mask, from));
   if constexpr (W == 4) return T(_mm256_maskz_loadu_pd(mask, from));
+#elif defined(__AVX__)
+  if constexpr (W == 4) return T(_mm256_maskload_pd(from, detail::first_lanes(count)));
 #endif
   double lanes[W] = {};
   for (int l = 0; l < count; ++l) lanes[l] = from[l];
@@ -58,7 +76,15 @@ inline T load_first(const double* from, int count) {
 /// The first `count` of a batch's doubles to memory.
 template <class T>
 inline void store_first(const T& value, double* to, int count) {
-  double lanes[lanes_of<T>];
+  constexpr int W = lanes_of<T>;
+#if defined(__AVX512VL__)
+  const auto mask = static_cast<__mmask8>(first_bits(count));
+  if constexpr (W == 8) return _mm512_mask_storeu_pd(to, mask, value);
+  if constexpr (W == 4) return _mm256_mask_storeu_pd(to, mask, value);
+#elif defined(__AVX__)
+  if constexpr (W == 4) return _mm256_maskstore_pd(to, detail::first_lanes(count), value);
+#endif
+  double lanes[W];
   value.store_unaligned(lanes);
   for (int l = 0; l < count; ++l) to[l] = lanes[l];
 }
@@ -75,11 +101,6 @@ inline unsigned bits_of(const M& mask) {
   unsigned bits = 0;
   for (std::size_t l = 0; l < M::size; ++l) bits |= mask.get(l) ? 1u << l : 0u;
   return bits;
-}
-
-/// The bits of the first `count` lanes.
-inline constexpr unsigned first_bits(int count) {
-  return (1u << count) - 1u;
 }
 
 /// Adds the sum over the lanes of values[i] to out[i], for each i; out has room for whole batches.

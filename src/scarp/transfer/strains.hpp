@@ -11,8 +11,6 @@ namespace scarp {
 
 template <int Dim>
 struct Strains {
-  using Column = std::vector<double>;
-
   std::array<Column, sym_size<Dim>> deps;   ///< strain increment (eq. 10), Mandel components, tension positive
   std::array<Column, spin_size<Dim>> spin;  ///< spin increment (eq. 11): W_xy (, W_yz, W_zx)
   Column volume;                            ///< w Ω_p in the middle of the step: what the work of stress is taken over
