@@ -167,7 +167,10 @@ struct Box {
    public:
     Cell(const Mesh<Dim>& mesh, int e) {
       const auto n = mesh.element_nodes(e);
-      for (int i = 0; i < nodes; ++i) x_[i] = mesh.nodes[n[i]];
+      for (int i = 0; i < nodes; ++i) {
+        corner_[i] = mesh.nodes[n[i]].data();
+        x_[i] = mesh.nodes[n[i]];
+      }
     }
 
     /// Newton's method from xi, the local coordinates of a point of the element not far from x. Convergence is
@@ -259,7 +262,7 @@ struct Box {
       }
     }
 
-    const std::array<Vec<Dim>, nodes>& positions() const { return x_; }
+    const double* corner(int i) const { return corner_[i]; }  ///< position of node i, where the mesh keeps it
 
     /// From −1 ... 1 to 0 ... 1.
     template <class T>
@@ -301,6 +304,7 @@ struct Box {
       return det;
     }
 
+    std::array<const double*, nodes> corner_;
     std::array<Vec<Dim>, nodes> x_;
   };
 };

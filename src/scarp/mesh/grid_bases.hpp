@@ -148,6 +148,7 @@ struct GridLinear {
     }
 
     const Vec<Dim>& low() const { return low_; }          ///< the corner where s = 0
+    const Vec<Dim>& spacing() const { return spacing_; }  ///< edges [m]
     const Vec<Dim>& inverse() const { return inverse_; }  ///< ds_d/dx_d [1/m]
 
    private:
@@ -168,7 +169,7 @@ struct GridSpline {
 
   class Cell {
    public:
-    Cell(const Mesh<Dim>& mesh, int e) : cell_(*mesh.grid, e) {
+    Cell(const Mesh<Dim>& mesh, int e) : cell_(*mesh.grid, e), spacing_(mesh.grid->spacing) {
       for (int d = 0; d < Dim; ++d) {
         a_[d] = cell_.at[d] == 0 ? 1.0 : 0.5;
         b_[d] = cell_.at[d] + 1 == mesh.grid->elements[d] ? 1.0 : 0.5;
@@ -193,13 +194,21 @@ struct GridSpline {
     template <class T>
     void gradients(const std::array<T, Dim>& s, std::array<T, nodes>& N,
                    std::array<std::array<T, Dim>, nodes>& B) const {
-      std::array<std::array<T, each>, Dim> g;
+      std::array<std::array<T, each>, Dim> f, g;
+      along_axes(s, f, g);
+      detail::products<Dim, each>(f, g, N, B);
+    }
+
+    /// The functions along each axis, and their derivatives [1/m].
+    template <class T>
+    void along_axes(const std::array<T, Dim>& s, std::array<std::array<T, each>, Dim>& f,
+                    std::array<std::array<T, each>, Dim>& g) const {
+      f = along_axes(s);
       for (int d = 0; d < Dim; ++d) {
         g[d][0] = T(-2 * a_[d] * cell_.inverse[d]) * (T(1.0) - s[d]);
         g[d][2] = T(2 * b_[d] * cell_.inverse[d]) * s[d];
         g[d][1] = -(g[d][0] + g[d][2]);
       }
-      detail::products<Dim, each>(along_axes(s), g, N, B);
     }
 
     /// Along an axis ∫ N_c ds = a/3, ∫ dN_c = −a, and likewise b/3 and b on the other side.
@@ -223,6 +232,11 @@ struct GridSpline {
       detail::for_gauss_of_box(cell_.inverse, f);
     }
 
+    bool first(int d) const { return a_[d] == 1; }  ///< is it the first along axis d?
+    bool last(int d) const { return b_[d] == 1; }
+    const Vec<Dim>& spacing() const { return spacing_; }       ///< edges [m]
+    const Vec<Dim>& inverse() const { return cell_.inverse; }  ///< ds_d/dx_d [1/m]
+
    private:
     template <class T>
     std::array<std::array<T, each>, Dim> along_axes(const std::array<T, Dim>& s) const {
@@ -237,7 +251,7 @@ struct GridSpline {
     }
 
     detail::GridCell<Dim> cell_;
-    Vec<Dim> a_, b_;
+    Vec<Dim> spacing_, a_, b_;
   };
 };
 

@@ -41,8 +41,8 @@ struct Buffers {
   Column hoop_shift;                 ///< the same of N_i / r, in a body of revolution
   Column mass_matrix;                ///< M_ij, where elements keep it
   // Of each place of the assembly:
-  Column sums;                   ///< transfer::node_sums numbers
-  Column momentum;               ///< transfer::momentum_size numbers
+  Column sums;      ///< transfer::node_sums numbers
+  Column momentum;  ///< transfer::momentum_size numbers
   // Of every node of the mesh, valid for active ones:
   std::vector<Node<Dim>> node;
   std::vector<transfer::Motion<Dim>> motion;
@@ -81,7 +81,7 @@ inline std::size_t padded_row(int row) {
   return static_cast<std::size_t>(row <= 4 ? 4 : (row + 7) / 8 * 8);
 }
 inline std::size_t mass_matrix_row(int row) {
-  return row <= transfer::most_nodes_with_mass_matrix ? static_cast<std::size_t>(row) * padded_row(row) : 0;
+  return static_cast<std::size_t>(transfer::mass_matrix_rows(row)) * padded_row(row);
 }
 
 /// Finds the element of every point anew and prepares the first step; displacements count from here. Throws InputError

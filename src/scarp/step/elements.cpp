@@ -41,19 +41,23 @@ SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, Quadrature choice, int slo
   transfer::Quadrature<Basis> quadrature;
   if constexpr (Basis::corrects) {
     if (choice == Quadrature::corrected && buffers.inside[slot]) {
-      quadrature = transfer::full_element<Basis>(cell, sums.Omega, sums.B, sums.hoop);
+      quadrature = transfer::full_element<Basis>(cell, xsimd::hadd(sums.Omega), transfer::totals<Basis>(sums.B),
+                                                 transfer::totals<Basis>(sums.hoop));
     }
   }
   buffers.weight[slot] = quadrature.weight;
   double* shift = buffers.shift.data() + slot * padded_row(body.assembly.row()) * Dim;
-  for (int j = 0; j < Dim; ++j) transfer::store_nodal<Basis>(quadrature.shift[j], shift + j * rows);
+  if constexpr (transfer::has_shift<Basis>) {
+    for (int j = 0; j < Dim; ++j) transfer::store_nodal<Basis>(quadrature.shift[j], shift + j * rows);
+  }
   if constexpr (is_axisymmetric<Basis>) {
     transfer::store_nodal<Basis>(quadrature.hoop_shift[0],
                                  buffers.hoop_shift.data() + slot * padded_row(body.assembly.row()));
   }
   if constexpr (transfer::keeps_mass_matrix<Basis>) {
     double* M = buffers.mass_matrix.data() + slot * mass_matrix_row(body.assembly.row());
-    for (int i = 0; i < Basis::nodes; ++i) transfer::store_nodal<Basis>(sums.M[i], M + i * rows);
+    const auto all = transfer::totals<Basis>(sums.M);
+    for (std::size_t k = 0; k < all.size(); ++k) transfer::store_nodal<Basis>(all[k], M + k * rows);
   }
   transfer::add_to_nodes<Basis>(sums, transfer::internal_force<Basis>(sums, quadrature), body.assembly.places_of(slot),
                                 buffers.sums.data());
@@ -105,14 +109,17 @@ void book(const transfer::MotionSums<Dim>& sums, StepBooks<Dim>& books) {
 
 /// Which of a few points, at x now, are still in their element, as bits of lanes; the local coordinates of these are
 /// kept where the basis stores them.
-template <class Basis, class Lanes, class T>
+template <class Basis, class Lanes, class T, class Before>
 unsigned still_inside(const typename Basis::Cell& cell, const Lanes& p, const std::array<T, Basis::dim>& x,
-                      double tolerance, Points<Basis::dim>& points) {
+                      const Before& before, double tolerance, Points<Basis::dim>& points) {
   const unsigned present = first_bits(p.count());
   if constexpr (Basis::stores_local) {
     std::array<T, Basis::dim> xi;
-    for (int j = 0; j < Basis::dim; ++j) xi[j] = p.load(points.xi[j]);
-    const auto found = cell.follow(x, xi, [&](const auto& good) { return (bits_of(good) & present) == present; });
+    auto found = before.follow(x, xi);
+    if ((bits_of(found) & present) != present) [[unlikely]] {
+      for (int j = 0; j < Basis::dim; ++j) xi[j] = p.load(points.xi[j]);
+      found = cell.follow(x, xi, [&](const auto& good) { return (bits_of(good) & present) == present; });
+    }
     for (int j = 0; j < Basis::dim; ++j) p.store(xi[j], points.xi[j]);  // those not inside get theirs later
     return bits_of(found && cell.inside(xi, tolerance)) & present;
   } else {
@@ -163,9 +170,9 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
     for (int i = 0; i < Basis::nodes; ++i) element.a_dt[i] = body.buffers.a_dt[n[i]].data();
   }
   transfer::nodes_to_points<pic, Basis>(cell, element, flip, block.points, points_of(block, slot), strains, at,
-                                        motion.sums, [&](const auto& p, const auto& x) {
-                                          const unsigned inside =
-                                              still_inside<Basis>(cell, p, x, body.locator.tolerance(), block.points);
+                                        motion.sums, [&](const auto& p, const auto& x, const auto& before) {
+                                          const unsigned inside = still_inside<Basis>(
+                                              cell, p, x, before, body.locator.tolerance(), block.points);
                                           motion.stayed += std::popcount(inside);
                                           if (inside != first_bits(p.count())) [[unlikely]]
                                             find_new_elements(body.locator, e, p, inside, block.points, books);

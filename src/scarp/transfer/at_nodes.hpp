@@ -3,52 +3,25 @@
 #pragma once
 
 #include <array>
-#include <utility>
 
 #include "scarp/mesh/basis.hpp"
 #include "scarp/mesh/grid_bases.hpp"
+#include "scarp/transfer/field.hpp"
 #include "scarp/transfer/local.hpp"
+#include "scarp/transfer/spline_functions.hpp"
+#include "scarp/transfer/wide.hpp"
 
 namespace scarp::transfer {
 
-template <class Basis>
-using Lane = NodeBatch<Basis::dim, Basis::nodes>;
-
-/// A number of each local node of a basis.
-template <class Basis>
-using Nodal = AtNodes<Basis::dim, Basis::nodes>;
-
-/// Number of batches of a Nodal, and of doubles, lanes behind the last node included.
-template <class Basis>
-inline constexpr int nodal_batches = static_cast<int>(std::tuple_size_v<Nodal<Basis>>);
-template <class Basis>
-inline constexpr int nodal_size = nodal_batches<Basis>* lanes_of<Lane<Basis>>;
-
-/// f(i) of local node i in its lane; zero behind the last node.
-template <class Basis, class F>
-inline Nodal<Basis> nodal(F&& f) {
-  using T = Lane<Basis>;
-  const auto one = [&](int i) { return i < Basis::nodes ? f(i < Basis::nodes ? i : 0) : 0.0; };
-  Nodal<Basis> all;
-  repeat<nodal_batches<Basis>>(
-      [&](auto b) { all[b] = from_lanes<T>([&](int l) { return one(b * lanes_of<T> + l); }); });
-  return all;
-}
-
-template <class Basis>
-inline void store_nodal(const Nodal<Basis>& all, double* to) {
-  repeat<nodal_batches<Basis>>([&](auto b) { all[b].store_unaligned(to + b * lanes_of<Lane<Basis>>); });
-}
-
-/// N_i and B_i at one point.
+/// N_i and B_i at one point, or at each of two.
 template <class Basis>
 struct Shapes {
-  Nodal<Basis> N;
-  std::array<Nodal<Basis>, Basis::dim> B;
+  WideNodal<Basis> N;
+  std::array<WideNodal<Basis>, Basis::dim> B;
 };
 
-/// What a basis needs once per element, and f(i, shapes) for its points i. In general: a point in each lane, and
-/// turned.
+/// What a basis needs once per element; with(points, p, f) then calls f(at) for the points of some lanes, where at(l)
+/// are the Shapes of point l (and l + 1). In general: with a point in each lane, and turned.
 template <class Basis>
 class ShapesAtPoints {
   static constexpr int Dim = Basis::dim, K = Basis::nodes;
@@ -57,118 +30,210 @@ class ShapesAtPoints {
  public:
   explicit ShapesAtPoints(const typename Basis::Cell& cell) : cell_(cell) {}
 
-  template <class F>
-  void for_each(const Points<Dim>& points, const PointRange& range, F&& f) const {
-    for_each_batch_of_element<T>(range, [&](const auto& p, int) {
-      std::array<T, K> N;
-      std::array<std::array<T, Dim>, K> B;
-      cell_.gradients(local_coordinates<Basis>(cell_, points, p), N, B);
-      std::array<Shapes<Basis>, T::size> shapes;
-      turn([&](int i) { return N[i]; }, [&](int l) -> auto& { return shapes[l].N; });
-      for (int d = 0; d < Dim; ++d) {
-        turn([&](int i) { return B[i][d]; }, [&](int l) -> auto& { return shapes[l].B[d]; });
-      }
-      for (int l = 0; l < p.count(); ++l) f(p.point(l), shapes[l]);
-    });
+  template <class Lanes, class F>
+  void with(const Points<Dim>& points, const Lanes& p, F&& f) const {
+    std::array<T, K> N;
+    std::array<std::array<T, Dim>, K> B;
+    cell_.gradients(local_coordinates<Basis>(cell_, points, p), N, B);
+    Turned all;
+    turn([&](int i) { return N[i]; }, all.N);
+    for (int d = 0; d < Dim; ++d) turn([&](int i) { return B[i][d]; }, all.B[d]);
+    f(all);
   }
 
  private:
-  template <class From, class To>
-  static void turn(From&& from, To&& to) {
-    static_assert(lanes_of<Lane<Basis>> == lanes_of<T>);
+  using OfEach = std::array<Nodal<Basis>, lanes_of<T>>;
+  struct Turned {
+    OfEach N;
+    std::array<OfEach, Dim> B;
+
+    Shapes<Basis> operator()(int l) const {
+      constexpr int next = points_at_once<Basis> - 1;
+      Shapes<Basis> at;
+      repeat<nodal_batches<Basis>>([&](auto b) {
+        at.N[b] = for_each_point<Basis>(N[l][b], N[l + next][b]);
+        repeat<Dim>([&](auto d) { at.B[d][b] = for_each_point<Basis>(B[d][l][b], B[d][l + next][b]); });
+      });
+      return at;
+    }
+  };
+
+  template <class From>
+  static void turn(From&& from, OfEach& to) {
+    constexpr int W = lanes_of<T>;
+    static_assert(lanes_of<Lane<Basis>> == W);
     for (int b = 0; b < nodal_batches<Basis>; ++b) {
       std::array<T, T::size> rows;
-      for (int l = 0; l < lanes_of<T>; ++l) {
-        const int i = b * lanes_of<T> + l;
+      for (int l = 0; l < W; ++l) {
+        const int i = b * W + l;
         rows[l] = i < K ? from(i < K ? i : 0) : T(0.0);
       }
       transpose(rows);
-      for (int l = 0; l < lanes_of<T>; ++l) to(l)[b] = rows[l];
+      for (int l = 0; l < W; ++l) to[l][b] = rows[l];
     }
   }
 
   const typename Basis::Cell& cell_;
 };
 
-/// N_i = Π (1 − s_d) or s_d: factors a + b s_d with a, b of each node.
+namespace detail {
+
+/// Multilinear functions in the lanes of their nodes: N_i = Π (a_di + b_di s_d), with 1 − s_d or s_d as factors.
+template <class Basis>
+struct Factors {
+  static constexpr int Dim = Basis::dim;
+  std::array<WideNodal<Basis>, Dim> a, b;
+
+  Factors() {
+    repeat<Dim>([&](auto d) {
+      a[d] = for_each_point<Basis>(
+          nodal<Basis>([](int i) { return scarp::detail::far_side(i, decltype(d)::value) ? 0.0 : 1.0; }));
+      b[d] = for_each_point<Basis>(
+          nodal<Basis>([](int i) { return scarp::detail::far_side(i, decltype(d)::value) ? 1.0 : -1.0; }));
+    });
+  }
+};
+
+}  // namespace detail
+
 template <int Dim>
 class ShapesAtPoints<GridLinear<Dim>> {
   using Basis = GridLinear<Dim>;
-  using T = Lane<Basis>;
-  static constexpr int batches = nodal_batches<Basis>;
+  using W = Wide<Basis>;
 
  public:
   explicit ShapesAtPoints(const typename Basis::Cell& cell) : cell_(cell) {
     repeat<Dim>([&](auto d) {
-      a_[d] = nodal<Basis>([](int i) { return detail::far_side(i, decltype(d)::value) ? 0.0 : 1.0; });
-      b_[d] = nodal<Basis>([](int i) { return detail::far_side(i, decltype(d)::value) ? 1.0 : -1.0; });
-      repeat<batches>([&](auto b) { dN_[d][b] = b_[d][b] * T(cell.inverse()[d]); });
+      repeat<nodal_batches<Basis>>([&](auto b) { slope_[d][b] = factor_.b[d][b] * W(cell.inverse()[d]); });
     });
   }
 
-  template <class F>
-  void for_each(const Points<Dim>& points, const PointRange& range, F&& f) const {
-    for (int k = 0; k < range.count; ++k) {
-      const int i = range.order[k];
-      std::array<T, Dim> s;
-      repeat<Dim>([&](auto d) { s[d] = (T(points.x[d][i]) - T(cell_.low()[d])) * T(cell_.inverse()[d]); });
+  template <class Lanes, class F>
+  void with(const Points<Dim>& points, const Lanes& p, F&& f) const {
+    const auto x = make_array<Dim>([&](auto d) { return of_points<Basis>(p, points.x[d]); });
+    f([&](int l) {
+      std::array<W, Dim> offset;
+      repeat<Dim>([&](auto d) { offset[d] = x[d].of(l) - W(cell_.low()[d]); });
       Shapes<Basis> at;
-      repeat<batches>([&](auto b) {
-        std::array<T, Dim> factor;
-        repeat<Dim>([&](auto d) { factor[d] = fma(b_[d][b], s[d], a_[d][b]); });
-        if constexpr (Dim == 2) {
-          at.N[b] = factor[0] * factor[1];
-          at.B[0][b] = dN_[0][b] * factor[1];
-          at.B[1][b] = dN_[1][b] * factor[0];
-        } else {
-          const T xy = factor[0] * factor[1];
-          at.N[b] = xy * factor[2];
-          at.B[0][b] = dN_[0][b] * (factor[1] * factor[2]);
-          at.B[1][b] = dN_[1][b] * (factor[0] * factor[2]);
-          at.B[2][b] = dN_[2][b] * xy;
-        }
+      repeat<nodal_batches<Basis>>([&](auto b) {
+        std::array<W, Dim> factor, others;
+        repeat<Dim>([&](auto d) { factor[d] = fma(slope_[d][b], offset[d], factor_.a[d][b]); });
+        at.N[b] = products(factor, others);
+        repeat<Dim>([&](auto d) { at.B[d][b] = slope_[d][b] * others[d]; });
       });
-      f(i, at);
-    }
+      return at;
+    });
   }
 
  private:
   const typename Basis::Cell& cell_;
-  std::array<Nodal<Basis>, Dim> a_, b_, dN_;
+  detail::Factors<Basis> factor_;
+  std::array<WideNodal<Basis>, Dim> slope_;
+};
+
+/// Quadrilaterals and hexahedra of any shape: (dx/ds)⁻¹ with a point in each lane.
+template <class Basis>
+requires std::is_same_v<Basis, Linear<Q4>> || std::is_same_v<Basis, Linear<H8>>
+class ShapesAtPoints<Basis> {
+  static constexpr int Dim = Basis::dim;
+  using W = Wide<Basis>;
+
+ public:
+  explicit ShapesAtPoints(const typename Basis::Cell& cell) : place_(cell) {}
+
+  template <class Lanes, class F>
+  void with(const Points<Dim>& points, const Lanes& p, F&& f) const {
+    const auto s = Basis::Cell::unit(local_coordinates<Basis>(place_.cell(), points, p));
+    const auto I = place_.inverse_jacobian(s);
+    const auto s_of = make_array<Dim>([&](auto d) { return OfPoints<Basis>(s[d]); });
+    const auto I_of = make_array<Dim * Dim>([&](auto i) { return OfPoints<Basis>(I[i / Dim][i % Dim]); });
+    f([&](int l) {
+      std::array<W, Dim> s;
+      std::array<W, Dim * Dim> I;
+      repeat<Dim>([&](auto d) { s[d] = s_of[d].of(l); });
+      repeat<Dim * Dim>([&](auto i) { I[i] = I_of[i].of(l); });
+      Shapes<Basis> at;
+      repeat<nodal_batches<Basis>>([&](auto b) {
+        std::array<W, Dim> factor, others;
+        repeat<Dim>([&](auto d) { factor[d] = fma(factor_.b[d][b], s[d], factor_.a[d][b]); });
+        at.N[b] = products(factor, others);
+        repeat<Dim>([&](auto d) { others[d] *= factor_.b[d][b]; });  // dN_i/ds_d
+        repeat<Dim>([&](auto j) {
+          at.B[j][b] = others[0] * I[j];
+          repeat<Dim - 1>([&](auto d) { at.B[j][b] = fma(others[d + 1], I[(d + 1) * Dim + j], at.B[j][b]); });
+        });
+      });
+      return at;
+    });
+  }
+
+ private:
+  BoxPlace<Basis> place_;
+  detail::Factors<Basis> factor_;
 };
 
 /// N_i = N_i(x_0) + B_i (x − x_0)
 template <class Basis>
 requires(Basis::nodes == Basis::dim + 1) class ShapesAtPoints<Basis> {
   static constexpr int Dim = Basis::dim;
-  using T = Lane<Basis>;
-  static constexpr int batches = nodal_batches<Basis>;
+  using W = Wide<Basis>;
 
  public:
   explicit ShapesAtPoints(const typename Basis::Cell& cell) : cell_(cell) {
-    first_ = nodal<Basis>([](int i) { return i == 0 ? 1.0 : 0.0; });
     const auto& B = cell.constant_gradients();
-    for (int d = 0; d < Dim; ++d) at_.B[d] = nodal<Basis>([&, d](int i) { return B[i][d]; });
+    first_ = for_each_point<Basis>(nodal<Basis>([](int i) { return i == 0 ? 1.0 : 0.0; }));
+    repeat<Dim>([&](auto d) { B_[d] = for_each_point<Basis>(nodal<Basis>([&](int i) { return B[i][d]; })); });
   }
 
-  template <class F>
-  void for_each(const Points<Dim>& points, const PointRange& range, F&& f) const {
-    Shapes<Basis> at = at_;
-    for (int k = 0; k < range.count; ++k) {
-      const int i = range.order[k];
-      at.N = first_;
+  template <class Lanes, class F>
+  void with(const Points<Dim>& points, const Lanes& p, F&& f) const {
+    const auto x = make_array<Dim>([&](auto d) { return of_points<Basis>(p, points.x[d]); });
+    f([&](int l) {
+      Shapes<Basis> at{first_, B_};
       repeat<Dim>([&](auto d) {
-        const T offset = T(points.x[d][i]) - T(cell_.low()[d]);
-        repeat<batches>([&](auto b) { at.N[b] = fma(offset, at.B[d][b], at.N[b]); });
+        const W offset = x[d].of(l) - W(cell_.low()[d]);
+        repeat<nodal_batches<Basis>>([&](auto b) { at.N[b] = fma(offset, at.B[d][b], at.N[b]); });
       });
-      f(i, at);
-    }
+      return at;
+    });
   }
 
  private:
   const typename Basis::Cell& cell_;
-  Nodal<Basis> first_;
-  Shapes<Basis> at_;
+  WideNodal<Basis> first_;
+  std::array<WideNodal<Basis>, Dim> B_;
+};
+
+template <int Dim>
+requires(SplineFunctions<GridSpline<Dim>, Wide<GridSpline<Dim>>>::possible) class ShapesAtPoints<GridSpline<Dim>> {
+  using Basis = GridSpline<Dim>;
+  using W = Wide<Basis>;
+
+ public:
+  explicit ShapesAtPoints(const typename Basis::Cell& cell)
+      : cell_(cell), along_(make_array<Dim>([&](auto d) { return SplineFunctions<Basis, W>(cell, d); })) {}
+
+  template <class Lanes, class F>
+  void with(const Points<Dim>& points, const Lanes& p, F&& f) const {
+    const auto s = cell_.local(load_all(points.x, p));
+    const auto s_of = make_array<Dim>([&](auto d) { return OfPoints<Basis>(s[d]); });
+    f([&](int l) {
+      std::array<W, Dim> value, slope;
+      repeat<Dim>([&](auto d) { along_[d].at(s_of[d].of(l), value[d], slope[d]); });
+      Shapes<Basis> at;
+      repeat<nodal_batches<Basis>>([&](auto b) {
+        std::array<W, Dim> factor, others;
+        repeat<Dim>([&](auto d) { factor[d] = of_nodes<Basis, d, b>(value[d]); });
+        at.N[b] = products(factor, others);
+        repeat<Dim>([&](auto d) { at.B[d][b] = of_nodes<Basis, d, b>(slope[d]) * others[d]; });
+      });
+      return at;
+    });
+  }
+
+ private:
+  const typename Basis::Cell& cell_;
+  std::array<SplineFunctions<Basis, W>, Dim> along_;
 };
 
 }  // namespace scarp::transfer

@@ -29,6 +29,15 @@ inline void repeat(F&& f) {
   (std::make_integer_sequence<int, n>());
 }
 
+/// {f(0), ..., f(n − 1)}, likewise.
+template <int n, class F>
+inline auto make_array(F&& f) {
+  return [&]<int... i>(std::integer_sequence<int, i...>) {
+    return std::array<decltype(f(std::integral_constant<int, 0>{})), n>{f(std::integral_constant<int, i>{})...};
+  }
+  (std::make_integer_sequence<int, n>());
+}
+
 /// n doubles side by side as numbers of one kind, in as many batches as it takes: the components of a node's vectors.
 template <int n>
 using Row = std::array<typename detail::SizedBatch<(n <= 4 ? 4 : 8)>::type,

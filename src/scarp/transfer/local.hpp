@@ -18,12 +18,16 @@ inline T half_edge(const T& volume) {
   }
 }
 
+/// The components of a vector of some points.
+template <std::size_t n, class Lanes>
+inline auto load_all(const std::array<Column, n>& columns, const Lanes& lanes) {
+  return make_array<static_cast<int>(n)>([&](auto j) { return lanes.load(columns[j]); });
+}
+
 /// What the cell's shape() and gradients() take of these points.
 template <class Basis, class Points, class Lanes>
 inline auto local_coordinates(const typename Basis::Cell& cell, const Points& points, const Lanes& lanes) {
-  const auto& columns = Basis::stores_local ? points.xi : points.x;
-  std::array<decltype(lanes.load(columns[0])), Basis::dim> at;
-  repeat<Basis::dim>([&](auto j) { at[j] = lanes.load(columns[j]); });
+  const auto at = load_all(Basis::stores_local ? points.xi : points.x, lanes);
   if constexpr (Basis::stores_local) {
     return at;
   } else if constexpr (Basis::has_domains) {

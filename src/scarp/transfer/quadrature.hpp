@@ -25,6 +25,10 @@ namespace scarp::transfer {
 template <class Basis>
 using Hoop = std::array<Nodal<Basis>, is_axisymmetric<Basis> ? 1 : 0>;
 
+/// Is there a shift s_i? In a simplex B_i is constant and its own mean.
+template <class Basis>
+inline constexpr bool has_shift = Basis::corrects&& Basis::nodes != Basis::dim + 1;
+
 /// What the step uses for an element's points: w and s_i; as constructed, eq. 4 as printed.
 template <class Basis>
 struct Quadrature {
@@ -40,6 +44,85 @@ struct Quadrature {
   }
 };
 
+/// An element's volume V and (1/V) ∫ ∇N_i dV, and in a body of revolution (1/V) ∫ N_i dA.
+template <class Basis>
+struct Means {
+  double V;
+  std::array<Nodal<Basis>, Basis::dim> gradient;
+  Hoop<Basis> hoop;
+
+  explicit Means(const typename Basis::Cell& cell) {
+    std::array<Vec<Basis::dim>, Basis::nodes> g;
+    if constexpr (is_axisymmetric<Basis>) {
+      std::array<double, Basis::nodes> h;
+      cell.integrals(V, g, h);
+      hoop[0] = nodal<Basis>([&](int i) { return h[i] / V; });
+    } else {
+      cell.integrals(V, g);
+    }
+    const double per_V = 1 / V;
+    repeat<Basis::dim>([&](auto j) { gradient[j] = nodal<Basis>([&](int i) { return g[i][j] * per_V; }); });
+  }
+};
+
+template <int Dim>
+struct Means<GridLinear<Dim>> {
+  using Basis = GridLinear<Dim>;
+  double V = 1;
+  std::array<Nodal<Basis>, Dim> gradient;
+
+  explicit Means(const typename Basis::Cell& cell) {
+    repeat<Dim>([&](auto d) {
+      V *= cell.spacing()[d];
+      const auto side = nodal<Basis>(
+          [](int i) { return (scarp::detail::far_side(i, decltype(d)::value) ? 2.0 : -2.0) / Basis::nodes; });
+      repeat<nodal_batches<Basis>>([&](auto b) { gradient[d][b] = side[b] * Lane<Basis>(cell.inverse()[d]); });
+    });
+  }
+};
+
+/// ∫ ∇N_i dV is ∮ N_i n ds, over the two sides that meet in i.
+template <>
+struct Means<Linear<Q4>> {
+  using Basis = Linear<Q4>;
+  double V;
+  std::array<Nodal<Basis>, 2> gradient;
+
+  explicit Means(const Basis::Cell& cell) {
+    const auto x = [&](int i, int j) { return cell.corner(i)[j]; };
+    V = 0.5 * ((x(2, 0) - x(0, 0)) * (x(3, 1) - x(1, 1)) - (x(3, 0) - x(1, 0)) * (x(2, 1) - x(0, 1)));
+    repeat<2>([&](auto j) {
+      constexpr int other = 1 - j;
+      const auto along = nodal<Basis>([&](int i) { return x(i, other); });
+      const auto next = turned<4, 1>(along), last = turned<4, 3>(along);
+      const Lane<Basis> half((j == 0 ? 0.5 : -0.5) / V);
+      repeat<nodal_batches<Basis>>([&](auto b) { gradient[j][b] = half * (next[b] - last[b]); });
+    });
+  }
+};
+
+template <int Dim>
+requires(SplineFunctions<GridSpline<Dim>, Lane<GridSpline<Dim>>>::possible) struct Means<GridSpline<Dim>> {
+  using Basis = GridSpline<Dim>;
+  double V = 1;
+  std::array<Nodal<Basis>, Dim> gradient;
+
+  explicit Means(const typename Basis::Cell& cell) {
+    using T = Lane<Basis>;
+    std::array<T, Dim> value, slope;
+    repeat<Dim>([&](auto d) {
+      V *= cell.spacing()[d];
+      SplineFunctions<Basis, T>(cell, d).mean(value[d], slope[d]);
+    });
+    repeat<nodal_batches<Basis>>([&](auto b) {
+      std::array<T, Dim> mean, others;
+      repeat<Dim>([&](auto d) { mean[d] = of_nodes<Basis, d, b>(value[d]); });
+      products(mean, others);
+      repeat<Dim>([&](auto d) { gradient[d][b] = of_nodes<Basis, d, b>(slope[d]) * others[d]; });
+    });
+  }
+};
+
 /// The quadrature of an element full of soil, from Σ Ω_p, Σ Ω_p B_i and (in a body of revolution) Σ Ω_p N_i / r over
 /// its points. Points that fill less than half of the element, or more than twice, are no quadrature of it: they keep
 /// eq. 4.
@@ -48,25 +131,15 @@ inline Quadrature<Basis> full_element(const typename Basis::Cell& cell, double v
                                       const std::array<Nodal<Basis>, Basis::dim>& gradient, const Hoop<Basis>& hoop) {
   using T = Lane<Basis>;
   Quadrature<Basis> q;
-  double V;
-  std::array<Vec<Basis::dim>, Basis::nodes> exact;
-  std::array<double, Basis::nodes> exact_hoop;
-  if constexpr (is_axisymmetric<Basis>) {
-    cell.integrals(V, exact, exact_hoop);
-  } else {
-    cell.integrals(V, exact);
-  }
-  if (!(volume > 0.5 * V && volume < 2 * V)) return q;
-  const double per_V = 1 / V, per_volume = 1 / volume;
-  q.weight = V * per_volume;
-  repeat<Basis::dim>([&](auto j) {
-    const auto mean = nodal<Basis>([&](int i) { return exact[i][j] * per_V; });
-    repeat<nodal_batches<Basis>>([&](auto b) { q.shift[j][b] = mean[b] - gradient[j][b] * T(per_volume); });
-  });
-  if constexpr (is_axisymmetric<Basis>) {
-    const auto mean = nodal<Basis>([&](int i) { return exact_hoop[i] * per_V; });
-    repeat<nodal_batches<Basis>>([&](auto b) { q.hoop_shift[0][b] = mean[b] - hoop[0][b] * T(per_volume); });
-  }
+  const Means<Basis> mean(cell);
+  if (!(volume > 0.5 * mean.V && volume < 2 * mean.V)) return q;
+  const double per_volume = 1 / volume;
+  q.weight = mean.V * per_volume;
+  const auto shift = [&](const Nodal<Basis>& exact, const Nodal<Basis>& sum, Nodal<Basis>& to) {
+    repeat<nodal_batches<Basis>>([&](auto b) { to[b] = exact[b] - sum[b] * T(per_volume); });
+  };
+  repeat<has_shift<Basis> ? Basis::dim : 0>([&](auto j) { shift(mean.gradient[j], gradient[j], q.shift[j]); });
+  if constexpr (is_axisymmetric<Basis>) shift(mean.hoop[0], hoop[0], q.hoop_shift[0]);
   return q;
 }
 

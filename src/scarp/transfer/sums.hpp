@@ -19,30 +19,36 @@ inline constexpr int most_nodes_with_mass_matrix = 8;
 template <class Basis>
 inline constexpr bool keeps_mass_matrix = Basis::nodes <= most_nodes_with_mass_matrix;
 
+/// M_ij is symmetric: it is kept as M_i,i+k (indices modulo the number of nodes) for k = 0 to half of that number.
+constexpr int mass_matrix_rows(int nodes) {
+  return nodes <= most_nodes_with_mass_matrix ? nodes / 2 + 1 : 0;
+}
+
 /// Sums over an element's points in step 1.
 template <class Basis>
 struct ElementSums {
-  static constexpr int dim = Basis::dim, nodes = Basis::nodes;
-  static constexpr int rows = keeps_mass_matrix<Basis> ? nodes : 0;
-  using T = Lane<Basis>;
+  static constexpr int dim = Basis::dim, rows = mass_matrix_rows(Basis::nodes);
+  using OfNodes = WideNodal<Basis>;
+  using OfPoints = PointBatch<dim>;
 
-  Nodal<Basis> m;                   ///< Σ m_p N_i
-  std::array<Nodal<Basis>, dim> p;  ///< Σ m_p v_p N_i
-  std::array<Nodal<Basis>, dim> F_normal,
-      F_shear;                       ///< Σ B_iᵀ σ_p Ω_p by normal and by shear stress, the latter times √2
-  std::array<Nodal<Basis>, dim> B;   ///< Σ Ω_p B_i
-  Hoop<Basis> hoop;                  ///< Σ Ω_p N_i / r
-  std::array<Nodal<Basis>, rows> M;  ///< rows of Σ m_p N_i N_j
-  double Omega = 0;                  ///< Σ Ω_p
-  std::array<double, sym_size<dim>> Omega_sigma{};  ///< Σ Ω_p σ_p, Mandel components
+  OfNodes m;                                        ///< Σ m_p N_i
+  std::array<OfNodes, dim> p;                       ///< Σ m_p v_p N_i
+  std::array<OfNodes, dim> F;                       ///< Σ B_iᵀ σ_p Ω_p
+  std::array<OfNodes, dim> B;                       ///< Σ Ω_p B_i
+  std::array<OfNodes, Hoop<Basis>{}.size()> hoop;   ///< Σ Ω_p N_i / r
+  std::array<OfNodes, rows> M;                      ///< Σ m_p N_i N_{i+k}
+  OfPoints Omega = OfPoints(0.0);                   ///< Σ Ω_p
+  std::array<OfPoints, sym_size<dim>> Omega_sigma;  ///< Σ Ω_p σ_p
 
   ElementSums() {
-    repeat<nodal_batches<Basis>>([&](auto b) {
-      m[b] = T(0.0);
-      repeat<dim>([&](auto j) { p[j][b] = F_normal[j][b] = F_shear[j][b] = B[j][b] = T(0.0); });
-      repeat<rows>([&](auto i) { M[i][b] = T(0.0); });
-      for (auto& of_nodes : hoop) of_nodes[b] = T(0.0);
-    });
+    const auto zero = [](auto&... of_nodes) {
+      (repeat<nodal_batches<Basis>>([&](auto b) { of_nodes[b] = Wide<Basis>(0.0); }), ...);
+    };
+    zero(m);
+    repeat<dim>([&](auto j) { zero(p[j], F[j], B[j]); });
+    repeat<rows>([&](auto k) { zero(M[k]); });
+    if constexpr (is_axisymmetric<Basis>) zero(hoop[0]);
+    repeat<sym_size<dim>>([&](auto c) { Omega_sigma[c] = OfPoints(0.0); });
   }
 };
 
@@ -51,38 +57,66 @@ struct ElementSums {
 template <class Basis>
 inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Points<Basis::dim>& points,
                             const PointRange& range, ElementSums<Basis>& sums) {
-  constexpr int Dim = Basis::dim, K = Basis::nodes, batches = nodal_batches<Basis>;
-  using T = Lane<Basis>;
-  shapes.for_each(points, range, [&](int i, const Shapes<Basis>& at) {
-    const double Omega = points.volume[i];
-    const T m(points.mass[i]);
-    alignas(64) double N[nodal_size<Basis>];
-    if constexpr (keeps_mass_matrix<Basis>) store_nodal<Basis>(at.N, N);
-    repeat<batches>([&](auto b) {
-      const T mN = m * at.N[b];
-      sums.m[b] += mN;
-      repeat<Dim>([&](auto j) {
-        sums.p[j][b] = fma(mN, T(points.v[j][i]), sums.p[j][b]);
-        const T B = T(Omega) * at.B[j][b];
-        sums.B[j][b] += B;
-        repeat<Dim>([&](auto k) {
-          T& F = (j == k ? sums.F_normal : sums.F_shear)[k][b];
-          F = fma(B, T(points.sigma[mandel(j, k)][i]), F);
+  constexpr int Dim = Basis::dim, components = sym_size<Dim>;
+  using T = PointBatch<Dim>;
+  using W = Wide<Basis>;
+  for_each_batch_of_element<T>(range, [&](const auto& p, int) {
+    const auto m_of = of_points<Basis>(p, points.mass), Omega_of = of_points<Basis>(p, points.volume);
+    const auto v_of = make_array<Dim>([&](auto j) { return of_points<Basis>(p, points.v[j]); });
+    const T Omega = p.load(points.volume);
+    sums.Omega += Omega;
+    const auto sigma_of = make_array<components>([&](auto c) {
+      // σ_zz does no work in plane strain. Mandel components of shear are √2 times the stress.
+      constexpr bool used = Dim == 3 || c != 2 || is_axisymmetric<Basis>;
+      const T sigma = used ? T(c < 3 ? 1 : 1 / sqrt2) * p.load(points.sigma[c]) : T(0.0);
+      sums.Omega_sigma[c] = fma(Omega, sigma, sums.Omega_sigma[c]);
+      return OfPoints<Basis>(Omega * sigma);
+    });
+    shapes.with(points, p, [&](const auto& at) {
+      for_each_group<Basis>(p, [&](int l) {
+        const Shapes<Basis> here = at(l);
+        const W m = m_of.of(l), Omega = Omega_of.of(l);
+        const auto v = make_array<Dim>([&](auto j) { return v_of[j].of(l); });
+        const auto sigma = make_array<components>([&](auto c) { return sigma_of[c].of(l); });  // Ω_p σ_p
+        WideNodal<Basis> mN;
+        repeat<nodal_batches<Basis>>([&](auto b) {
+          mN[b] = m * here.N[b];
+          sums.m[b] += mN[b];
+          repeat<Dim>([&](auto j) {
+            sums.p[j][b] = fma(mN[b], v[j], sums.p[j][b]);
+            sums.B[j][b] = fma(Omega, here.B[j][b], sums.B[j][b]);
+            repeat<Dim>([&](auto k) { sums.F[k][b] = fma(here.B[j][b], sigma[mandel(j, k)], sums.F[k][b]); });
+          });
+        });
+        if constexpr (is_axisymmetric<Basis>) {
+          const W r = of_points<Basis>(p, points.x[0]).of(l), per_r = select(Omega > W(0.0), W(1.0) / r, W(0.0));
+          repeat<nodal_batches<Basis>>([&](auto b) {
+            const W hoop = per_r * here.N[b];
+            sums.hoop[0][b] = fma(Omega, hoop, sums.hoop[0][b]);
+            sums.F[0][b] = fma(hoop, sigma[2], sums.F[0][b]);
+          });
+        }
+        repeat<ElementSums<Basis>::rows>([&](auto k) {
+          const auto N = turned<Basis::nodes, k>(here.N);
+          repeat<nodal_batches<Basis>>([&](auto b) { sums.M[k][b] = fma(mN[b], N[b], sums.M[k][b]); });
         });
       });
-      if constexpr (is_axisymmetric<Basis>) {
-        const T hoop = T(Omega / points.x[0][i]) * at.N[b];
-        sums.hoop[0][b] += hoop;
-        sums.F_normal[0][b] = fma(hoop, T(points.sigma[2][i]), sums.F_normal[0][b]);
-      }
-      repeat<keeps_mass_matrix<Basis> ? K : 0>([&](auto j) { sums.M[j][b] = fma(mN, T(N[j]), sums.M[j][b]); });
-    });
-    sums.Omega += Omega;
-    repeat<sym_size<Dim>>([&](auto c) {
-      if (Dim == 3 || c != 2 || is_axisymmetric<Basis>)
-        sums.Omega_sigma[c] += Omega * points.sigma[c][i];  // σ_zz does no work in plane strain
     });
   });
+}
+
+/// The sums of all points of an element.
+template <class Basis>
+inline Nodal<Basis> total(const WideNodal<Basis>& sum) {
+  Nodal<Basis> all;
+  repeat<nodal_batches<Basis>>([&](auto b) { all[b] = folded<Basis>(sum[b]); });
+  return all;
+}
+template <class Basis, std::size_t n>
+inline std::array<Nodal<Basis>, n> totals(const std::array<WideNodal<Basis>, n>& sums) {
+  std::array<Nodal<Basis>, n> all;
+  repeat<static_cast<int>(n)>([&](auto j) { all[j] = total<Basis>(sums[j]); });
+  return all;
 }
 
 /// F_i^int of an element whose points are used by a quadrature of w and s_i.
@@ -91,18 +125,15 @@ inline std::array<Nodal<Basis>, Basis::dim> internal_force(const ElementSums<Bas
                                                            const Quadrature<Basis>& quadrature) {
   constexpr int Dim = Basis::dim;
   using T = Lane<Basis>;
-  std::array<Nodal<Basis>, Dim> F;
+  const auto Omega_sigma = make_array<sym_size<Dim>>([&](auto c) { return T(xsimd::hadd(sums.Omega_sigma[c])); });
+  auto F = totals<Basis>(sums.F);
   repeat<nodal_batches<Basis>>([&](auto b) {
     repeat<Dim>([&](auto j) {
-      T sum = fma(T(1 / sqrt2), sums.F_shear[j][b], sums.F_normal[j][b]);
-      repeat<Dim>([&](auto k) {
-        const double sigma = (j == k ? 1 : 1 / sqrt2) * sums.Omega_sigma[mandel(j, k)];
-        sum = fma(quadrature.shift[k][b], T(sigma), sum);
-      });
-      if constexpr (is_axisymmetric<Basis> && j == 0) {
-        sum = fma(quadrature.hoop_shift[0][b], T(sums.Omega_sigma[2]), sum);
-      }
-      F[j][b] = sum * T(quadrature.weight);
+      repeat<has_shift<Basis> ? Dim : 0>(
+          [&](auto k) { F[j][b] = fma(quadrature.shift[k][b], Omega_sigma[mandel(j, k)], F[j][b]); });
+      if constexpr (is_axisymmetric<Basis> && j == 0)
+        F[j][b] = fma(quadrature.hoop_shift[0][b], Omega_sigma[2], F[j][b]);
+      F[j][b] *= T(quadrature.weight);
     });
   });
   return F;
@@ -113,11 +144,13 @@ template <class Basis>
 inline void add_to_nodes(const ElementSums<Basis>& sums, const std::array<Nodal<Basis>, Basis::dim>& F,
                          const int* place, double* nodes) {
   constexpr int Dim = Basis::dim, W = lanes_of<Lane<Basis>>;
+  const auto m = total<Basis>(sums.m);
+  const auto p = totals<Basis>(sums.p);
   repeat<nodal_batches<Basis>>([&](auto b) {
     std::array<Lane<Basis>, node_sums<Dim>> values;
-    values[0] = sums.m[b];
+    values[0] = m[b];
     repeat<Dim>([&](auto j) {
-      values[1 + j] = sums.p[j][b];
+      values[1 + j] = p[j][b];
       values[1 + Dim + j] = F[j][b];
     });
     if constexpr (Dim == 3) values[7] = Lane<Basis>(0.0);

@@ -40,43 +40,61 @@ struct MotionSums {
 /// to the momentum of local node i (eqs 6, 7; step.cpp), into the places of its nodes.
 template <class Basis>
 inline void add_momentum(const double* M, const NodeRows<Basis>& motion, const int* place, double* momentum) {
-  constexpr int Dim = Basis::dim, K = Basis::nodes, W = lanes_of<Lane<Basis>>;
-  repeat<nodal_batches<Basis>>([&](auto b) {
-    std::array<Lane<Basis>, momentum_size<Dim>> p;
-    repeat<momentum_size<Dim>>([&](auto k) { p[k] = Lane<Basis>(0.0); });
-    repeat<K>([&](auto j) {
-      const auto M_j = Lane<Basis>::load_unaligned(M + j * nodal_size<Basis> + b * W);
-      repeat<Dim>([&](auto k) { p[k] = fma(M_j, Lane<Basis>(motion[j][k]), p[k]); });
+  constexpr int Dim = Basis::dim, K = Basis::nodes, W = lanes_of<Lane<Basis>>, batches = nodal_batches<Basis>;
+  const auto c = make_array<Dim>([&](auto j) { return nodal<Basis>([&](int i) { return motion[i][j]; }); });
+  std::array<Nodal<Basis>, Dim> p;
+  repeat<mass_matrix_rows(K)>([&](auto k) {
+    Nodal<Basis> M_k;  // M_i,i+k
+    repeat<batches>([&](auto b) { M_k[b] = Lane<Basis>::load_unaligned(M + k * nodal_size<Basis> + b * W); });
+    repeat<Dim>([&](auto j) {
+      const auto c_k = turned<K, k>(c[j]);
+      repeat<batches>([&](auto b) { p[j][b] = k == 0 ? M_k[b] * c_k[b] : fma(M_k[b], c_k[b], p[j][b]); });
+      if constexpr (k > 0 && 2 * k != K) {  // and M_i,i−k
+        Nodal<Basis> Mc;
+        repeat<batches>([&](auto b) { Mc[b] = M_k[b] * c[j][b]; });
+        const auto from_behind = turned<K, K - k>(Mc);
+        repeat<batches>([&](auto b) { p[j][b] += from_behind[b]; });
+      }
     });
-    add_to_places<std::min(W, K - b * W)>(p, place + b * W, momentum);
+  });
+  repeat<batches>([&](auto b) {
+    std::array<Lane<Basis>, momentum_size<Dim>> of_batch;
+    repeat<momentum_size<Dim>>([&](auto j) { of_batch[j] = j < Dim ? p[j < Dim ? j : 0][b] : Lane<Basis>(0.0); });
+    add_to_places<std::min(W, K - b * W)>(of_batch, place + b * W, momentum);
   });
 }
 
 /// The same for an element that does not: Σ_p m_p N_i Σ_j N_j c_j, through its points.
 template <class Basis>
-void add_momentum(const typename Basis::Cell& cell, const Points<Basis::dim>& points, const PointRange& range,
-                  const NodeRows<Basis>& motion, const int* place, double* momentum) {
-  constexpr int Dim = Basis::dim, K = Basis::nodes;
+inline void add_momentum(const typename Basis::Cell& cell, const Points<Basis::dim>& points, const PointRange& range,
+                         const NodeRows<Basis>& motion, const int* place, double* momentum) {
+  constexpr int Dim = Basis::dim, W = lanes_of<Lane<Basis>>;
   using T = PointBatch<Dim>;
-  alignas(64) std::array<double, whole_batches<T>(K * Dim)> sums{};
+  const ShapesAtPoints<Basis> shapes(cell);
+  const Field<Basis, Dim> c(cell, motion);
+  std::array<WideNodal<Basis>, Dim> sums;
+  repeat<Dim>([&](auto j) { repeat<nodal_batches<Basis>>([&](auto b) { sums[j][b] = Wide<Basis>(0.0); }); });
   for_each_batch_of_element<T>(range, [&](const auto& p, int) {
-    std::array<T, K> N;
-    cell.shape(local_coordinates<Basis>(cell, points, p), N);
+    const auto local = local_coordinates<Basis>(cell, points, p);
+    const auto here = c.at(local);
     const T m = p.load(points.mass);
-    std::array<T, whole_batches<T>(K * Dim)> part;
-    for (int j = 0; j < Dim; ++j) {
-      T c = N[0] * T(motion[0][j]);
-      for (int i = 1; i < K; ++i) c = fma(N[i], T(motion[i][j]), c);
-      const T mc = m * c;
-      for (int i = 0; i < K; ++i) part[i * Dim + j] = mc * N[i];
-    }
-    for (std::size_t i = K * Dim; i < part.size(); ++i) part[i] = T(0.0);
-    add_lanes(part, sums.data());
+    const auto mc_of = make_array<Dim>([&](auto j) { return OfPoints<Basis>(m * here.value(j)); });
+    shapes.with(points, p, [&](const auto& at) {
+      for_each_group<Basis>(p, [&](int l) {
+        const auto N = at(l).N;
+        repeat<Dim>([&](auto j) {
+          const auto mc = mc_of[j].of(l);
+          repeat<nodal_batches<Basis>>([&](auto b) { sums[j][b] = fma(mc, N[b], sums[j][b]); });
+        });
+      });
+    });
   });
-  for (int i = 0; i < K; ++i) {
-    for (int j = 0; j < Dim; ++j)
-      momentum[static_cast<std::size_t>(place[i]) * momentum_size<Dim> + j] += sums[i * Dim + j];
-  }
+  const auto all = totals<Basis>(sums);
+  repeat<nodal_batches<Basis>>([&](auto b) {
+    std::array<Lane<Basis>, momentum_size<Dim>> of_batch;
+    repeat<momentum_size<Dim>>([&](auto j) { of_batch[j] = j < Dim ? all[j < Dim ? j : 0][b] : Lane<Basis>(0.0); });
+    add_to_places<std::min(W, Basis::nodes - b * W)>(of_batch, place + b * W, momentum);
+  });
 }
 
 /// What an element has for its points in steps 4 to 10.
@@ -89,13 +107,13 @@ struct ElementMotion {
   const double* hoop_shift = nullptr;  ///< that of N_i / r, in a body of revolution
 };
 
-/// Σ du_i ⊗ s_i, component (j, k) at j * Dim + k; zero where the basis is not corrected.
+/// Σ du_i ⊗ s_i, component (j, k) at j * Dim + k; zero where there is no shift.
 template <class Basis>
 inline Vec<Basis::dim * Basis::dim> shifted_gradient(const ElementMotion<Basis>& element) {
   constexpr int Dim = Basis::dim;
   using T = typename Row<2 * Dim>::value_type;
   Vec<Dim * Dim> sum{};
-  if constexpr (!Basis::corrects) return sum;
+  if constexpr (!has_shift<Basis>) return sum;
   repeat<Dim>([&](auto k) {
     alignas(64) double column[row_size<2 * Dim>];
     repeat<row_size<2 * Dim> / lanes_of<T>>([&](auto b) {
@@ -123,7 +141,7 @@ inline T hoop_strain(const ElementMotion<Basis>& element, const T& du, const T& 
 /// Steps 4 (eq. 6: v_p = φ v_p + Σ c_i N_i; step.cpp), 6, 8, 9 and 10: L dt = Σ du_i ⊗ B_i (eq. 9), strain and
 /// spin increments (eqs 10, 11) to `strains` from place `at` on, volume by det(I + L dt) (eq. 14 in its finite form;
 /// the density of eq. 15 is m_p / Ω_p), and position (eqs 17–19; the displacement is x_p less x_p at the start). Then
-/// moved(lanes, x) for each batch.
+/// moved(lanes, x, motion there before) for each batch.
 template <bool pic, class Basis, class F>
 inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotion<Basis>& element, double flip,
                             Points<Basis::dim>& points, const PointRange& range, Strains<Basis::dim>& strains, int at,
@@ -168,7 +186,7 @@ inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotio
     (T(w) * Omega * (T(1.0) - T(0.5) * dilation)).store_unaligned(strains.volume.data() + at + first);
     (T(stiffer) * Omega / m).store_unaligned(strains.per_mass.data() + at + first);
     (T(per_size2) * v2).store_unaligned(strains.speed2.data() + at + first);
-    moved(p, x);
+    moved(p, x, here);
   });
 }
 
