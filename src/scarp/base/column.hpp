@@ -7,22 +7,29 @@
 
 namespace scarp {
 
-/// Allocates from the beginning of a cache line on: a SIMD batch at a multiple of its size then lies in one line, not
-/// across two.
+namespace detail {
+inline constexpr std::size_t cache_line = 64, page = 4096;
+/// Memory that begins at a cache line, and each time at another one of a page.
+void* allocate_column(std::size_t bytes);
+void free_column(void* column);
+}  // namespace detail
+
+/// A SIMD batch at a multiple of its size lies in one cache line, not across two. Equal places of several arrays are at
+/// different places of a page: large blocks of memory all begin at a page, and a cache keeps only a few lines (twelve,
+/// say) from the same place of pages, fewer than a point has columns.
 template <class Value>
-struct LineAllocator {
+struct ColumnAllocator {
   using value_type = Value;
-  static constexpr std::align_val_t line{64};
 
-  LineAllocator() = default;
+  ColumnAllocator() = default;
   template <class Other>
-  LineAllocator(const LineAllocator<Other>&) {}
+  ColumnAllocator(const ColumnAllocator<Other>&) {}
 
-  Value* allocate(std::size_t count) { return static_cast<Value*>(::operator new(count * sizeof(Value), line)); }
-  void deallocate(Value* values, std::size_t) { ::operator delete(values, line); }
-  friend bool operator==(const LineAllocator&, const LineAllocator&) { return true; }
+  Value* allocate(std::size_t count) { return static_cast<Value*>(detail::allocate_column(count * sizeof(Value))); }
+  void deallocate(Value* values, std::size_t) { detail::free_column(values); }
+  friend bool operator==(const ColumnAllocator&, const ColumnAllocator&) { return true; }
 };
 
-using Column = std::vector<double, LineAllocator<double>>;
+using Column = std::vector<double, ColumnAllocator<double>>;
 
 }  // namespace scarp

@@ -4,8 +4,21 @@
 
 namespace scarp::exec {
 
+namespace {
+
+/// Chunks have few places in common where they are large, and threads share them evenly where there are many: about 32,
+/// if that leaves them this large.
+constexpr int least_chunk = 64, most_chunk = 1024;
+
+int chunk_for(int elements) {
+  return std::clamp((elements / 32 + least_chunk - 1) / least_chunk * least_chunk, least_chunk, most_chunk);
+}
+
+}  // namespace
+
 template <int Dim>
-void Assembly::rebuild(const Mesh<Dim>& mesh, const ActiveElements& active, int chunk) {
+void Assembly::rebuild(const Mesh<Dim>& mesh, const ActiveElements& active) {
+  chunk_ = chunk_for(active.size());
   for (const int n : node_) latest_[n] = {};
   latest_.resize(mesh.nodes.size());
   row_ = 0;
@@ -18,7 +31,7 @@ void Assembly::rebuild(const Mesh<Dim>& mesh, const ActiveElements& active, int 
   local_.resize(static_cast<std::size_t>(active.size()) * row_);
   int places = 0;
   for (int slot = 0; slot < active.size(); ++slot) {
-    if (slot % chunk == 0) chunk_begin_.push_back(places);
+    if (slot % chunk_ == 0) chunk_begin_.push_back(places);
     int* local = local_.data() + static_cast<std::size_t>(slot) * row_;
     for (const int n : mesh.element_nodes(active.element[slot])) {
       auto& latest = latest_[n];
@@ -42,14 +55,14 @@ void Assembly::rebuild(const Mesh<Dim>& mesh, const ActiveElements& active, int 
   for (int place = 0; place < places; ++place) place_[begin_[of_place_[place] + 1]++] = place;
 }
 
-void Assembly::reserve(std::size_t elements, std::size_t row, int chunk) {
+void Assembly::reserve(std::size_t elements, std::size_t row) {
   const std::size_t rows = elements * row;
   for (auto* list : {&local_, &node_, &place_, &of_place_}) list->reserve(rows);
   begin_.reserve(rows + 2);
-  chunk_begin_.reserve(elements / chunk + 2);
+  chunk_begin_.reserve(elements / least_chunk + 2);
 }
 
-template void Assembly::rebuild<2>(const Mesh<2>&, const ActiveElements&, int);
-template void Assembly::rebuild<3>(const Mesh<3>&, const ActiveElements&, int);
+template void Assembly::rebuild<2>(const Mesh<2>&, const ActiveElements&);
+template void Assembly::rebuild<3>(const Mesh<3>&, const ActiveElements&);
 
 }  // namespace scarp::exec

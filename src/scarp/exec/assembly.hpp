@@ -35,15 +35,18 @@ class Assembly {
     for (int l = begin_[k]; l < begin_[k + 1]; ++l) f(place_[l]);
   }
 
-  /// Makes it anew for other active elements, in chunks of so many; what it costs is theirs only.
+  /// Number of elements in a chunk; the last may have fewer.
+  int chunk() const { return chunk_; }
+
+  /// Makes it anew for other active elements; what it costs is theirs only.
   template <int Dim>
-  void rebuild(const Mesh<Dim>& mesh, const ActiveElements& active, int chunk);
+  void rebuild(const Mesh<Dim>& mesh, const ActiveElements& active);
 
   /// Room for so many active elements of up to `row` nodes.
-  void reserve(std::size_t elements, std::size_t row, int chunk);
+  void reserve(std::size_t elements, std::size_t row);
 
  private:
-  int row_ = 0;
+  int row_ = 0, chunk_ = 1;
   std::vector<int> chunk_begin_;           ///< of each chunk: its first place
   std::vector<int> local_;                 ///< rows of the active elements: places of their local nodes
   std::vector<int> node_, begin_, place_;  ///< active nodes, and their places

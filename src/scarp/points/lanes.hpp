@@ -33,6 +33,8 @@ class Lanes {
 
   int count() const { return count_; }
   int point(int lane) const { return order_[lane]; }
+  /// Do they fill the lanes, beside each other?
+  bool whole() const { return beside_ && count_ == W; }
 
   [[gnu::always_inline]] T load(const Column& column) const {
     if (!beside_) [[unlikely]]
@@ -91,6 +93,9 @@ class WholeLanes {
   int point(int lane) const { return static_cast<int>(first_) + lane; }
   T load(const Column& column) const { return T::load_unaligned(column.data() + first_); }
   void store(const T& value, Column& column) const { value.store_unaligned(column.data() + first_); }
+  void store(std::uint8_t value, std::vector<std::uint8_t>& column) const {
+    std::memset(column.data() + first_, value, W);
+  }
 
  private:
   std::size_t first_;

@@ -37,7 +37,7 @@ void make_room(Body<Dim>& body) {
   for (auto& block : body.blocks) reserve_order(block, elements);
   body.active.element.reserve(elements);
   body.active.fresh.reserve(elements);
-  body.assembly.reserve(elements, row, place_chunk);
+  body.assembly.reserve(elements, row);
   auto& buffers = body.buffers;
   buffers.inside.reserve(elements);
   buffers.weight.reserve(elements);
@@ -91,7 +91,7 @@ template <int Dim>
 void rebuild(Body<Dim>& body) {
   auto& buffers = body.buffers;
   const auto& active = body.active;
-  body.assembly.rebuild(*body.mesh, active, place_chunk);
+  body.assembly.rebuild(*body.mesh, active);
   const auto slots = static_cast<std::size_t>(active.size()), places = body.assembly.places();
   buffers.inside.resize(slots);
   for (int slot = 0; slot < active.size(); ++slot) {

@@ -72,9 +72,9 @@ struct Body {
   int point_count() const;
 };
 
-/// Sweeps over elements go in chunks of this many: those that add to places of their nodes in larger ones, with fewer
-/// places; the one that hands strain increments to the law in such whose increments stay in the innermost cache.
-inline constexpr int place_chunk = 256, element_chunk = 64;
+/// The sweep that hands strain increments to the law goes in chunks of so many elements, whose increments stay in the
+/// innermost cache. Those that add to places of nodes go in the chunks of the assembly.
+inline constexpr int element_chunk = 64;
 
 /// Numbers that an element of up to `row` nodes keeps for a component of its nodes, and for its mass matrix.
 inline std::size_t padded_row(int row) {

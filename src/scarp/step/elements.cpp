@@ -91,7 +91,7 @@ SCARP_FLATTEN void add_momentum(Body<Basis::dim>& body, int slot, int e) {
 /// Zero in the places of the elements from slot `first` on, n numbers each.
 template <int Dim>
 void clear_places(const Body<Dim>& body, int first, Column& numbers, int n) {
-  const int chunk = first / place_chunk;
+  const int chunk = first / body.assembly.chunk();
   std::fill(numbers.begin() + static_cast<std::ptrdiff_t>(body.assembly.first_place(chunk)) * n,
             numbers.begin() + static_cast<std::ptrdiff_t>(body.assembly.last_place(chunk)) * n, 0.0);
 }
@@ -196,7 +196,7 @@ void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, do
 
 template <int Dim>
 void map_points_to_elements(Body<Dim>& body, Quadrature choice, StepBooks<Dim>& books) {
-  for_each_chunk(body, place_chunk, books, [&](int first, int last, StepBooks<Dim>&) {
+  for_each_chunk(body, body.assembly.chunk(), books, [&](int first, int last, StepBooks<Dim>&) {
     clear_places(body, first, body.buffers.sums, transfer::node_sums<Dim>);
     for_each_element(body, first, last,
                      [&]<class Basis>(Basis, int slot, int e) { sum_points<Basis>(body, choice, slot, e); });
@@ -205,7 +205,7 @@ void map_points_to_elements(Body<Dim>& body, Quadrature choice, StepBooks<Dim>& 
 
 template <int Dim>
 void change_momentum(Body<Dim>& body, StepBooks<Dim>& books) {
-  for_each_chunk(body, place_chunk, books, [&](int first, int last, StepBooks<Dim>&) {
+  for_each_chunk(body, body.assembly.chunk(), books, [&](int first, int last, StepBooks<Dim>&) {
     clear_places(body, first, body.buffers.momentum, transfer::momentum_size<Dim>);
     for_each_element(body, first, last,
                      [&]<class Basis>(Basis, int slot, int e) { add_momentum<Basis>(body, slot, e); });

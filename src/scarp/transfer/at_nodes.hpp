@@ -143,15 +143,13 @@ class ShapesAtPoints<Basis> {
 
   template <class Lanes, class F>
   void with(const Points<Dim>& points, const Lanes& p, F&& f) const {
-    const auto s = Basis::Cell::unit(local_coordinates<Basis>(place_.cell(), points, p));
-    const auto I = place_.inverse_jacobian(s);
-    const auto s_of = make_array<Dim>([&](auto d) { return OfPoints<Basis>(s[d]); });
-    const auto I_of = make_array<Dim * Dim>([&](auto i) { return OfPoints<Basis>(I[i / Dim][i % Dim]); });
+    const auto unit = Basis::Cell::unit(local_coordinates<Basis>(place_.cell(), points, p));
+    const auto inverse = place_.inverse_jacobian(unit);
+    const auto s_of = make_array<Dim>([&](auto d) { return OfPoints<Basis>(unit[d]); });
+    const auto I_of = make_array<Dim * Dim>([&](auto i) { return OfPoints<Basis>(inverse[i / Dim][i % Dim]); });
     f([&](int l) {
-      std::array<W, Dim> s;
-      std::array<W, Dim * Dim> I;
-      repeat<Dim>([&](auto d) { s[d] = s_of[d].of(l); });
-      repeat<Dim * Dim>([&](auto i) { I[i] = I_of[i].of(l); });
+      const auto s = make_array<Dim>([&](auto d) { return s_of[d].of(l); });
+      const auto I = make_array<Dim * Dim>([&](auto i) { return I_of[i].of(l); });
       Shapes<Basis> at;
       repeat<nodal_batches<Basis>>([&](auto b) {
         std::array<W, Dim> factor, others;

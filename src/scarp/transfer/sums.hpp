@@ -63,14 +63,14 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Points<Ba
   for_each_batch_of_element<T>(range, [&](const auto& p, int) {
     const auto m_of = of_points<Basis>(p, points.mass), Omega_of = of_points<Basis>(p, points.volume);
     const auto v_of = make_array<Dim>([&](auto j) { return of_points<Basis>(p, points.v[j]); });
-    const T Omega = p.load(points.volume);
-    sums.Omega += Omega;
+    const T volume = p.load(points.volume);
+    sums.Omega += volume;
     const auto sigma_of = make_array<components>([&](auto c) {
       // σ_zz does no work in plane strain. Mandel components of shear are √2 times the stress.
       constexpr bool used = Dim == 3 || c != 2 || is_axisymmetric<Basis>;
       const T sigma = used ? T(c < 3 ? 1 : 1 / sqrt2) * p.load(points.sigma[c]) : T(0.0);
-      sums.Omega_sigma[c] = fma(Omega, sigma, sums.Omega_sigma[c]);
-      return OfPoints<Basis>(Omega * sigma);
+      sums.Omega_sigma[c] = fma(volume, sigma, sums.Omega_sigma[c]);
+      return OfPoints<Basis>(volume * sigma);
     });
     shapes.with(points, p, [&](const auto& at) {
       for_each_group<Basis>(p, [&](int l) {

@@ -1,0 +1,31 @@
+#include "scarp/base/column.hpp"
+
+#include <atomic>
+
+namespace scarp::detail {
+namespace {
+
+/// In front of a column: the memory that it is in.
+using Header = void*;
+
+std::size_t next_place() {
+  constexpr std::size_t lines = page / cache_line, apart = 5;  // neighbours are fetched together
+  static std::atomic<std::size_t> count{0};
+  return count++ * apart % lines * cache_line;
+}
+
+}  // namespace
+
+void* allocate_column(std::size_t bytes) {
+  const std::size_t before = bytes < page ? cache_line : cache_line + next_place();
+  char* memory = static_cast<char*>(::operator new(before + bytes, std::align_val_t{cache_line}));
+  char* column = memory + before;
+  reinterpret_cast<Header*>(column)[-1] = memory;
+  return column;
+}
+
+void free_column(void* column) {
+  ::operator delete(static_cast<Header*>(column)[-1], std::align_val_t{cache_line});
+}
+
+}  // namespace scarp::detail
