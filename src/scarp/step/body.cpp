@@ -4,19 +4,35 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "scarp/base/error.hpp"
 #include "scarp/exec/parallel.hpp"
+#include "scarp/mesh/with_basis.hpp"
 #include "scarp/transfer/transfer.hpp"
 
 namespace scarp {
 
+namespace {
+
+/// The most numbers that an element of the mesh stores of its quadrature's shift.
+template <int Dim>
+std::size_t largest_shift(const Mesh<Dim>& mesh) {
+  std::vector<int> elements(mesh.grid ? 1 : static_cast<std::size_t>(mesh.element_count()));  // all are alike in a grid
+  std::iota(elements.begin(), elements.end(), 0);
+  int most = 0;
+  with_basis<Dim>(mesh, elements.data(), 0, static_cast<int>(elements.size()),
+                  [&]<class Basis>(Basis, int, int) { most = std::max(most, transfer::Shift<Basis>::size); });
+  return static_cast<std::size_t>(most);
+}
+
+}  // namespace
+
 template <int Dim>
 Body<Dim>::Body(std::unique_ptr<const Mesh<Dim>> background, const Vec<Dim>& gravitational_acceleration)
-    : mesh(std::move(background)),
-      locator(*mesh),
-      conditions(mesh->node_count()),
-      gravity(gravitational_acceleration) {}
+    : mesh(std::move(background)), locator(*mesh), conditions(mesh->node_count()), gravity(gravitational_acceleration) {
+  buffers.shift_row = largest_shift(*mesh);
+}
 
 template <int Dim>
 int Body<Dim>::point_count() const {
@@ -41,7 +57,7 @@ void make_room(Body<Dim>& body) {
   auto& buffers = body.buffers;
   buffers.inside.reserve(elements);
   buffers.weight.reserve(elements);
-  buffers.shift.reserve(elements * padded * Dim);
+  buffers.shift.reserve(elements * buffers.shift_row);
   if (body.mesh->axisymmetric) buffers.hoop_shift.reserve(elements * padded);
   buffers.mass_matrix.reserve(elements * mass_matrix_row(body.assembly.row()));
   buffers.sums.reserve(places * transfer::node_sums<Dim>);
@@ -99,7 +115,7 @@ void rebuild(Body<Dim>& body) {
     buffers.inside[slot] = std::all_of(around.begin(), around.end(), [&](int e) { return active.slot[e] >= 0; });
   }
   buffers.weight.assign(slots, 1.0);
-  buffers.shift.resize(slots * padded_row(body.assembly.row()) * Dim);
+  buffers.shift.resize(slots * buffers.shift_row);
   if (body.mesh->axisymmetric) buffers.hoop_shift.resize(slots * padded_row(body.assembly.row()));
   buffers.mass_matrix.resize(slots * mass_matrix_row(body.assembly.row()));
   buffers.sums.resize(places * transfer::node_sums<Dim>);

@@ -37,19 +37,20 @@ struct Buffers {
   // Of each slot:
   std::vector<std::uint8_t> inside;  ///< are all elements around it active, too?
   Column weight;                     ///< w of its quadrature
-  Column shift;                      ///< s_i of its quadrature
-  Column hoop_shift;                 ///< the same of N_i / r, in a body of revolution
-  Column mass_matrix;                ///< M_ij, where elements keep it
+  Column shift;                      ///< transfer::Shift of its quadrature, as stored: shift_row numbers
+  std::size_t shift_row = 0;
+  Column hoop_shift;   ///< the same of N_i / r, in a body of revolution
+  Column mass_matrix;  ///< M_ij, where elements keep it
   // Of each place of the assembly:
   Column sums;      ///< transfer::node_sums numbers
   Column momentum;  ///< transfer::momentum_size numbers
   // Of every node of the mesh, valid for active ones:
   std::vector<Node<Dim>> node;
   std::vector<transfer::Motion<Dim>> motion;
-  std::vector<std::array<double, row_size<Dim>>> a_dt;  ///< a dt; where there is a PIC share
-  std::vector<Resistance<Dim>> resistance;              ///< with damping, and where nodes are not free
-  std::vector<Strains<Dim>> strains;                    ///< of each thread
-  std::vector<StepBooks<Dim>> books;                    ///< of each chunk
+  std::vector<Vec<Dim>> a_dt;               ///< a dt; where there is a PIC share
+  std::vector<Resistance<Dim>> resistance;  ///< with damping, and where nodes are not free
+  std::vector<Strains<Dim>> strains;        ///< of each thread
+  std::vector<StepBooks<Dim>> books;        ///< of each chunk
 };
 
 /// Soil on its background mesh. The mesh is held by pointer, so that it stays where the locator saw it.
@@ -81,7 +82,7 @@ inline std::size_t padded_row(int row) {
   return static_cast<std::size_t>(row <= 4 ? 4 : (row + 7) / 8 * 8);
 }
 inline std::size_t mass_matrix_row(int row) {
-  return static_cast<std::size_t>(transfer::mass_matrix_rows(row)) * padded_row(row);
+  return transfer::mass_matrix_size(row, padded_row(row));
 }
 
 /// Finds the element of every point anew and prepares the first step; displacements count from here. Throws InputError

@@ -30,7 +30,6 @@ PointRange points_of(const Block<Dim>& block, int slot) {
 
 template <class Basis>
 SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, Quadrature choice, int slot, int e) {
-  constexpr int Dim = Basis::dim, rows = transfer::nodal_size<Basis>;
   const typename Basis::Cell cell(*body.mesh, e);
   const transfer::ShapesAtPoints<Basis> shapes(cell);
   transfer::ElementSums<Basis> sums;
@@ -41,23 +40,18 @@ SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, Quadrature choice, int slo
   transfer::Quadrature<Basis> quadrature;
   if constexpr (Basis::corrects) {
     if (choice == Quadrature::corrected && buffers.inside[slot]) {
-      quadrature = transfer::full_element<Basis>(cell, xsimd::hadd(sums.Omega), transfer::totals<Basis>(sums.B),
-                                                 transfer::totals<Basis>(sums.hoop));
+      quadrature =
+          transfer::full_element<Basis>(cell, xsimd::hadd(sums.Omega), sums.shift, transfer::totals<Basis>(sums.hoop));
     }
   }
   buffers.weight[slot] = quadrature.weight;
-  double* shift = buffers.shift.data() + slot * padded_row(body.assembly.row()) * Dim;
-  if constexpr (transfer::has_shift<Basis>) {
-    for (int j = 0; j < Dim; ++j) transfer::store_nodal<Basis>(quadrature.shift[j], shift + j * rows);
-  }
+  quadrature.shift.store(buffers.shift.data() + slot * buffers.shift_row);
   if constexpr (is_axisymmetric<Basis>) {
     transfer::store_nodal<Basis>(quadrature.hoop_shift[0],
                                  buffers.hoop_shift.data() + slot * padded_row(body.assembly.row()));
   }
   if constexpr (transfer::keeps_mass_matrix<Basis>) {
-    double* M = buffers.mass_matrix.data() + slot * mass_matrix_row(body.assembly.row());
-    const auto all = transfer::totals<Basis>(sums.M);
-    for (std::size_t k = 0; k < all.size(); ++k) transfer::store_nodal<Basis>(all[k], M + k * rows);
+    transfer::store_mass_matrix(sums, buffers.mass_matrix.data() + slot * mass_matrix_row(body.assembly.row()));
   }
   transfer::add_to_nodes<Basis>(sums, transfer::internal_force<Basis>(sums, quadrature), body.assembly.places_of(slot),
                                 buffers.sums.data());
@@ -154,11 +148,10 @@ template <bool pic, class Basis>
 SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block, int slot, int e, double flip,
                                Strains<Basis::dim>& strains, int at, MotionBooks<Basis::dim>& motion,
                                StepBooks<Basis::dim>& books) {
-  constexpr int Dim = Basis::dim;
   const typename Basis::Cell cell(*body.mesh, e);
   transfer::ElementMotion<Basis> element{motion_of_nodes<Basis>(body, e),
                                          {},
-                                         body.buffers.shift.data() + slot * padded_row(body.assembly.row()) * Dim,
+                                         body.buffers.shift.data() + slot * body.buffers.shift_row,
                                          body.buffers.weight[slot],
                                          body.mesh->size[e],
                                          nullptr};

@@ -28,52 +28,63 @@ std::array<double, n> gathered(const Body<Dim>& body, int k, const Column& numbe
   return sum;
 }
 
-/// Step 3: a_n = (F_grav − F_int) / m_n (eq. 5) with local damping against the motion, and the conditions; and by what
-/// it changes the velocities of points (step 4): c = φ a dt + (1 − φ) ṽ, ṽ = v^t + a dt with the conditions.
+/// Does anything resist the motion of a node?
 template <int Dim>
-Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const StepSettings& settings) {
+bool is_resisted(const Body<Dim>& body, int n, double damping) {
+  return damping != 0 || !is_free(body.conditions, n);
+}
+
+/// Local damping of the force F against the motion, and the conditions: changes a = F / m, notes what is held and the
+/// resistance; F becomes what of it is not balanced.
+template <int Dim>
+[[gnu::noinline]] void resist(Body<Dim>& body, int n, double dt, double damping, Vec<Dim>& F, Vec<Dim>& a) {
   Node<Dim>& node = body.buffers.node[n];
-  node.m = sum[0];
-  node.per_mass = 1 / node.m;
-  node.held = 0;
-  const double *p = sum + 1, *F_int = p + Dim;
-  const bool free = is_free(body.conditions, n);
-  Resistance<Dim> resistance;
-  Vec<Dim> a;
+  Resistance<Dim>& resistance = body.buffers.resistance[n];
+  resistance = {};
   for (int j = 0; j < Dim; ++j) {
-    const double F = node.m * body.gravity[j] - F_int[j];
-    node.v[j] = p[j] * node.per_mass;
-    if (settings.damping != 0 && node.v[j] != 0) {
-      resistance.F_damping[j] = -std::copysign(settings.damping * std::abs(F), node.v[j]);
+    if (damping != 0 && node.v[j] != 0) {
+      resistance.F_damping[j] = -std::copysign(damping * std::abs(F[j]), node.v[j]);
     }
-    a[j] = (F + resistance.F_damping[j]) * node.per_mass;
+    a[j] = (F[j] + resistance.F_damping[j]) * node.per_mass;
   }
-  if (!free) {
+  if (!is_free(body.conditions, n)) {
     const auto reaction = constrain_acceleration<Dim>(body.conditions, n, node.m, node.v, dt, a);
     node.held = reaction.held;
     resistance.F_friction = reaction.friction;
-    for (int j = 0; j < Dim; ++j) {
-      if (node.held & (1u << j)) resistance.F_damping[j] = 0;
-    }
   }
-  if (!free || settings.damping != 0) body.buffers.resistance[n] = resistance;
+  for (int j = 0; j < Dim; ++j) {
+    if (node.held & (1u << j)) resistance.F_damping[j] = 0;
+    F[j] = node.held & (1u << j) ? 0 : node.m * a[j] - resistance.F_damping[j];
+  }
+}
+
+/// Step 3: a_n = (F_grav − F_int) / m_n (eq. 5), and by what it changes the velocities of points (step 4):
+/// c = φ a dt + (1 − φ) ṽ, ṽ = v^t + a dt with the conditions. Returns the force that is not balanced.
+template <int Dim>
+Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const StepSettings& settings) {
+  Node<Dim>& node = body.buffers.node[n];
+  const double m = sum[0], per_mass = 1 / m, *p = sum + 1, *F_int = p + Dim;
+  Vec<Dim> F, a;
+  node = {m, per_mass, {}, 0};
+  for (int j = 0; j < Dim; ++j) {
+    node.v[j] = p[j] * per_mass;
+    F[j] = m * body.gravity[j] - F_int[j];
+    a[j] = F[j] * per_mass;
+  }
+  const bool resisted = is_resisted(body, n, settings.damping);
+  if (resisted) [[unlikely]]
+    resist<Dim>(body, n, dt, settings.damping, F, a);
   auto& motion = body.buffers.motion[n];
   for (int j = 0; j < Dim; ++j) motion.dv(j) = a[j] * dt;
-  if (settings.flip == 1) return a;
+  if (settings.flip == 1) return F;
   Vec<Dim> v_next;
   for (int j = 0; j < Dim; ++j) {
     body.buffers.a_dt[n][j] = a[j] * dt;
     v_next[j] = node.v[j] + a[j] * dt;
   }
-  if (!free) constrain_velocity<Dim>(body.conditions, n, node.held, v_next);
+  if (resisted) constrain_velocity<Dim>(body.conditions, n, node.held, v_next);
   for (int j = 0; j < Dim; ++j) motion.dv(j) = settings.flip * a[j] * dt + (1 - settings.flip) * v_next[j];
-  return a;
-}
-
-/// The resistance that accelerate() has left; none where it left none.
-template <int Dim>
-Resistance<Dim> resistance_at(const Body<Dim>& body, int n, double damping) {
-  return damping != 0 || !is_free(body.conditions, n) ? body.buffers.resistance[n] : Resistance<Dim>{};
+  return F;
 }
 
 }  // namespace
@@ -81,7 +92,7 @@ Resistance<Dim> resistance_at(const Body<Dim>& body, int n, double damping) {
 template <int Dim>
 void accelerate_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
   for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>& part) {
-    double unbalanced = 0, weight = 0;
+    double unbalanced = 0, mass = 0;
     for (int k = first; k < last; ++k) {
       const int n = body.assembly.node(k);
       const auto sum = gathered<transfer::node_sums<Dim>>(body, k, body.buffers.sums);
@@ -91,16 +102,11 @@ void accelerate_nodes(Body<Dim>& body, double dt, const StepSettings& settings, 
         body.buffers.a_dt[n] = {};
         continue;
       }
-      const auto a = accelerate(body, n, sum.data(), dt, settings);
-      const Node<Dim>& node = body.buffers.node[n];
-      const auto resistance = resistance_at(body, n, settings.damping);
-      for (int j = 0; j < Dim; ++j) {
-        if (!(node.held & (1u << j))) unbalanced += std::abs(node.m * a[j] - resistance.F_damping[j]);
-        weight += std::abs(node.m * body.gravity[j]);
-      }
+      for (const double F : accelerate(body, n, sum.data(), dt, settings)) unbalanced += std::abs(F);
+      mass += sum[0];
     }
     part.unbalanced_force = unbalanced;
-    part.weight = weight;
+    for (const double g : body.gravity) part.weight += mass * std::abs(g);
   });
 }
 
@@ -109,7 +115,8 @@ void accelerate_nodes(Body<Dim>& body, double dt, const StepSettings& settings, 
 template <int Dim>
 void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
   for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>& part) {
-    double damping = 0, friction = 0, gravity = 0;
+    double damping = 0, friction = 0;
+    Vec<Dim> m_du{};
     for (int k = first; k < last; ++k) {
       const int n = body.assembly.node(k);
       const Node<Dim>& node = body.buffers.node[n];
@@ -117,7 +124,7 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
       const auto dp = gathered<transfer::momentum_size<Dim>>(body, k, body.buffers.momentum);
       Vec<Dim> v;
       for (int j = 0; j < Dim; ++j) v[j] = settings.flip * node.v[j] + dp[j] * node.per_mass;
-      if (settings.damping != 0 || !is_free(body.conditions, n)) {
+      if (is_resisted(body, n, settings.damping)) [[unlikely]] {
         const auto& resistance = body.buffers.resistance[n];
         for (int j = 0; j < Dim; ++j) {
           const double path = 0.5 * (node.v[j] + v[j]) * dt;
@@ -129,12 +136,12 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
       auto& motion = body.buffers.motion[n];
       for (int j = 0; j < Dim; ++j) {
         motion.du(j) = v[j] * dt;
-        gravity += node.m * body.gravity[j] * motion.du(j);
+        m_du[j] += node.m * motion.du(j);
       }
     }
     part.dissipation_damping = damping;
     part.dissipation_friction = friction;
-    part.work_gravity = gravity;
+    for (int j = 0; j < Dim; ++j) part.work_gravity += m_du[j] * body.gravity[j];
   });
 }
 

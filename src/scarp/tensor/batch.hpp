@@ -89,6 +89,20 @@ inline void store_first(const T& value, double* to, int count) {
   for (int l = 0; l < count; ++l) to[l] = lanes[l];
 }
 
+/// As many doubles as half of a batch has, in both halves.
+template <class T>
+inline T load_twice(const double* from) {
+#if defined(__AVX512F__)
+  if constexpr (T::size == 8) return T(_mm512_broadcast_f64x4(_mm256_loadu_pd(from)));
+#endif
+#if defined(__AVX__)
+  if constexpr (T::size == 4) return T(_mm256_broadcast_pd(reinterpret_cast<const __m128d*>(from)));
+#endif
+  double lanes[T::size];
+  for (std::size_t l = 0; l < T::size; ++l) lanes[l] = from[l % (T::size / 2)];
+  return T::load_unaligned(lanes);
+}
+
 /// Bit l is set where lane l of the mask is.
 template <class M>
 inline unsigned bits_of(const M& mask) {

@@ -108,6 +108,8 @@ class ShapesAtPoints<GridLinear<Dim>> {
     });
   }
 
+  const typename Basis::Cell& cell() const { return cell_; }
+
   template <class Lanes, class F>
   void with(const Points<Dim>& points, const Lanes& p, F&& f) const {
     const auto x = make_array<Dim>([&](auto d) { return of_points<Basis>(p, points.x[d]); });

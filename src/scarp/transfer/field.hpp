@@ -14,9 +14,21 @@ namespace scarp::transfer {
 template <class Basis>
 using NodeRows = std::array<const double*, Basis::nodes>;
 
+/// Whether rows of nodal values may be read beyond their last number, to whole batches.
+enum class Rows { padded, just };
+
+/// Batch b of a row of n numbers.
+template <int n, Rows rows, int b>
+inline auto load_row(const double* row) {
+  using T = typename Row<n>::value_type;
+  constexpr int W = lanes_of<T>, count = std::min(W, n - b * W);
+  if constexpr (rows == Rows::padded || count == W) return T::load_unaligned(row + b * W);
+  return load_first<T>(row + b * W, count);
+}
+
 /// The field of n components for one element. at(local) is the field at a few points: value(c) and derivative<d>(c),
 /// dc/dx_d. This one is for any basis, and sums over the nodes.
-template <class Basis, int n>
+template <class Basis, int n, Rows rows = Rows::padded>
 class Field {
   static constexpr int Dim = Basis::dim, K = Basis::nodes;
 
@@ -54,9 +66,6 @@ class Field {
   NodeRows<Basis> u_;
 };
 
-/// Whether rows of nodal values may be read beyond their last number, to whole batches.
-enum class Rows { padded, just };
-
 /// A product of linear functions on the unit box, from its values at the corners in the order of an element's nodes: as
 /// Σ c_m Π s_d over the axes d in the bits of m.
 template <int Dim, int n, Rows rows = Rows::padded>
@@ -68,14 +77,7 @@ class Multilinear {
     using T = typename Row<n>::value_type;
     repeat<row_size<n> / lanes_of<T>>([&](auto b) {
       std::array<T, K> c;
-      repeat<K>([&](auto i) {
-        const double* from = u[i] + b * lanes_of<T>;
-        if constexpr (rows == Rows::padded || n % lanes_of<T> == 0) {
-          c[corner(i)] = T::load_unaligned(from);
-        } else {
-          c[corner(i)] = load_first<T>(from, std::min(lanes_of<T>, n - b * lanes_of<T>));
-        }
-      });
+      repeat<K>([&](auto i) { c[corner(i)] = load_row<n, rows, b>(u[i]); });
       repeat<Dim>([&](auto d) {
         repeat<K>([&](auto m) {
           if constexpr ((m >> d & 1) != 0) c[m] = c[m] - c[m ^ 1 << d];
@@ -126,8 +128,8 @@ class Multilinear {
   alignas(64) std::array<std::array<double, row_size<n>>, K> c_;
 };
 
-template <int Dim, int n>
-class Field<GridLinear<Dim>, n> {
+template <int Dim, int n, Rows rows>
+class Field<GridLinear<Dim>, n, rows> {
   using Basis = GridLinear<Dim>;
 
  public:
@@ -153,7 +155,7 @@ class Field<GridLinear<Dim>, n> {
 
  private:
   const typename Basis::Cell& cell_;
-  Multilinear<Dim, n> u_;
+  Multilinear<Dim, n, rows> u_;
 };
 
 /// A quadrilateral or hexahedron of any shape: x is multilinear in s.
@@ -188,8 +190,8 @@ class BoxPlace {
 };
 
 /// There both x and the field are multilinear in s, and so du/dx = du/ds (dx/ds)⁻¹.
-template <class Basis, int n>
-requires(Basis::stores_local&& Basis::nodes == 1 << Basis::dim) class Field<Basis, n> {
+template <class Basis, int n, Rows rows>
+requires(Basis::stores_local&& Basis::nodes == 1 << Basis::dim) class Field<Basis, n, rows> {
   static constexpr int Dim = Basis::dim;
 
  public:
@@ -238,12 +240,12 @@ requires(Basis::stores_local&& Basis::nodes == 1 << Basis::dim) class Field<Basi
 
  private:
   BoxPlace<Basis> place_;
-  Multilinear<Dim, n> u_;
+  Multilinear<Dim, n, rows> u_;
 };
 
 /// Triangles and tetrahedra: u_0 + Σ (u_k − u_0) ξ_k, of one gradient.
-template <class Basis, int n>
-requires(Basis::nodes == Basis::dim + 1) class Field<Basis, n> {
+template <class Basis, int n, Rows rows>
+requires(Basis::nodes == Basis::dim + 1) class Field<Basis, n, rows> {
   static constexpr int Dim = Basis::dim;
   using OfNode = std::array<double, row_size<n>>;
 
@@ -253,7 +255,7 @@ requires(Basis::nodes == Basis::dim + 1) class Field<Basis, n> {
     const auto& B = cell.constant_gradients();
     repeat<row_size<n> / lanes_of<R>>([&](auto b) {
       const auto to = [&](const R& x, OfNode& row) { x.store_aligned(row.data() + b * lanes_of<R>); };
-      const auto u_i = make_array<Basis::nodes>([&](auto i) { return R::load_unaligned(u[i] + b * lanes_of<R>); });
+      const auto u_i = make_array<Basis::nodes>([&](auto i) { return load_row<n, rows, b>(u[i]); });
       to(u_i[0], first_);
       repeat<Dim>([&](auto k) { to(u_i[k + 1] - u_i[0], more_[k]); });
       repeat<Dim>([&](auto d) {
@@ -292,8 +294,8 @@ requires(Basis::nodes == Basis::dim + 1) class Field<Basis, n> {
 };
 
 /// B-splines: first along x in each line of nodes, then along y, and z.
-template <int Dim, int n>
-class Field<GridSpline<Dim>, n> {
+template <int Dim, int n, Rows rows>
+class Field<GridSpline<Dim>, n, rows> {
   using Basis = GridSpline<Dim>;
   static constexpr int each = Basis::each;
 

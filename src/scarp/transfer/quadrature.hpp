@@ -18,6 +18,7 @@
 #include <array>
 
 #include "scarp/transfer/at_nodes.hpp"
+#include "scarp/transfer/shift.hpp"
 
 namespace scarp::transfer {
 
@@ -25,22 +26,17 @@ namespace scarp::transfer {
 template <class Basis>
 using Hoop = std::array<Nodal<Basis>, is_axisymmetric<Basis> ? 1 : 0>;
 
-/// Is there a shift s_i? In a simplex B_i is constant and its own mean.
-template <class Basis>
-inline constexpr bool has_shift = Basis::corrects&& Basis::nodes != Basis::dim + 1;
-
 /// What the step uses for an element's points: w and s_i; as constructed, eq. 4 as printed.
 template <class Basis>
 struct Quadrature {
   double weight = 1;
-  std::array<Nodal<Basis>, Basis::dim> shift;  ///< [1/m]
-  Hoop<Basis> hoop_shift;                      ///< of N_i / r [1/m]
+  Shift<Basis> shift;
+  Hoop<Basis> hoop_shift;  ///< of N_i / r [1/m]
 
   Quadrature() {
-    repeat<nodal_batches<Basis>>([&](auto b) {
-      repeat<Basis::dim>([&](auto j) { shift[j][b] = Lane<Basis>(0.0); });
-      for (auto& of_nodes : hoop_shift) of_nodes[b] = Lane<Basis>(0.0);
-    });
+    if constexpr (is_axisymmetric<Basis>) {
+      repeat<nodal_batches<Basis>>([&](auto b) { hoop_shift[0][b] = Lane<Basis>(0.0); });
+    }
   }
 };
 
@@ -123,23 +119,22 @@ requires(SplineFunctions<GridSpline<Dim>, Lane<GridSpline<Dim>>>::possible) stru
   }
 };
 
-/// The quadrature of an element full of soil, from Σ Ω_p, Σ Ω_p B_i and (in a body of revolution) Σ Ω_p N_i / r over
-/// its points. Points that fill less than half of the element, or more than twice, are no quadrature of it: they keep
-/// eq. 4.
+/// The quadrature of an element full of soil, from Σ Ω_p, what its shift follows from and (in a body of revolution)
+/// Σ Ω_p N_i / r over its points. Points that fill less than half of the element, or more than twice, are no quadrature
+/// of it: they keep eq. 4.
 template <class Basis>
-inline Quadrature<Basis> full_element(const typename Basis::Cell& cell, double volume,
-                                      const std::array<Nodal<Basis>, Basis::dim>& gradient, const Hoop<Basis>& hoop) {
-  using T = Lane<Basis>;
+inline Quadrature<Basis> full_element(const typename Basis::Cell& cell, double volume, const ShiftSums<Basis>& sums,
+                                      const Hoop<Basis>& hoop) {
   Quadrature<Basis> q;
   const Means<Basis> mean(cell);
   if (!(volume > 0.5 * mean.V && volume < 2 * mean.V)) return q;
   const double per_volume = 1 / volume;
   q.weight = mean.V * per_volume;
-  const auto shift = [&](const Nodal<Basis>& exact, const Nodal<Basis>& sum, Nodal<Basis>& to) {
-    repeat<nodal_batches<Basis>>([&](auto b) { to[b] = exact[b] - sum[b] * T(per_volume); });
-  };
-  repeat<has_shift<Basis> ? Basis::dim : 0>([&](auto j) { shift(mean.gradient[j], gradient[j], q.shift[j]); });
-  if constexpr (is_axisymmetric<Basis>) shift(mean.hoop[0], hoop[0], q.hoop_shift[0]);
+  q.shift = Shift<Basis>(cell, mean, sums, per_volume);
+  if constexpr (is_axisymmetric<Basis>) {
+    repeat<nodal_batches<Basis>>(
+        [&](auto b) { q.hoop_shift[0][b] = mean.hoop[0][b] - hoop[0][b] * Lane<Basis>(per_volume); });
+  }
   return q;
 }
 

@@ -19,9 +19,15 @@ inline constexpr int most_nodes_with_mass_matrix = 8;
 template <class Basis>
 inline constexpr bool keeps_mass_matrix = Basis::nodes <= most_nodes_with_mass_matrix;
 
-/// M_ij is symmetric: it is kept as M_i,i+k (indices modulo the number of nodes) for k = 0 to half of that number.
+/// M_ij is symmetric: it is kept in rows of M_i,i+k (indices modulo the number of nodes) for k = 0 to half of that
+/// number; where that is even the last row has each number twice, and only half of it is kept.
 constexpr int mass_matrix_rows(int nodes) {
   return nodes <= most_nodes_with_mass_matrix ? nodes / 2 + 1 : 0;
+}
+/// Numbers that are kept, in rows of `padded`.
+constexpr std::size_t mass_matrix_size(int nodes, std::size_t padded) {
+  const auto rows = static_cast<std::size_t>(mass_matrix_rows(nodes));
+  return nodes % 2 == 0 && rows > 0 ? (rows - 1) * padded + padded / 2 : rows * padded;
 }
 
 /// Sums over an element's points in step 1.
@@ -31,10 +37,10 @@ struct ElementSums {
   using OfNodes = WideNodal<Basis>;
   using OfPoints = PointBatch<dim>;
 
-  OfNodes m;                                        ///< Σ m_p N_i
-  std::array<OfNodes, dim> p;                       ///< Σ m_p v_p N_i
-  std::array<OfNodes, dim> F;                       ///< Σ B_iᵀ σ_p Ω_p
-  std::array<OfNodes, dim> B;                       ///< Σ Ω_p B_i
+  OfNodes m;                   ///< Σ m_p N_i
+  std::array<OfNodes, dim> p;  ///< Σ m_p v_p N_i
+  std::array<OfNodes, dim> F;  ///< Σ B_iᵀ σ_p Ω_p
+  ShiftSums<Basis> shift;
   std::array<OfNodes, Hoop<Basis>{}.size()> hoop;   ///< Σ Ω_p N_i / r
   std::array<OfNodes, rows> M;                      ///< Σ m_p N_i N_{i+k}
   OfPoints Omega = OfPoints(0.0);                   ///< Σ Ω_p
@@ -45,7 +51,7 @@ struct ElementSums {
       (repeat<nodal_batches<Basis>>([&](auto b) { of_nodes[b] = Wide<Basis>(0.0); }), ...);
     };
     zero(m);
-    repeat<dim>([&](auto j) { zero(p[j], F[j], B[j]); });
+    repeat<dim>([&](auto j) { zero(p[j], F[j]); });
     repeat<rows>([&](auto k) { zero(M[k]); });
     if constexpr (is_axisymmetric<Basis>) zero(hoop[0]);
     repeat<sym_size<dim>>([&](auto c) { Omega_sigma[c] = OfPoints(0.0); });
@@ -65,6 +71,7 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Points<Ba
     const auto v_of = make_array<Dim>([&](auto j) { return of_points<Basis>(p, points.v[j]); });
     const T volume = p.load(points.volume);
     sums.Omega += volume;
+    sums.shift.add_batch(shapes, points, p, volume);
     const auto sigma_of = make_array<components>([&](auto c) {
       // σ_zz does no work in plane strain. Mandel components of shear are √2 times the stress.
       constexpr bool used = Dim == 3 || c != 2 || is_axisymmetric<Basis>;
@@ -84,10 +91,10 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Points<Ba
           sums.m[b] += mN[b];
           repeat<Dim>([&](auto j) {
             sums.p[j][b] = fma(mN[b], v[j], sums.p[j][b]);
-            sums.B[j][b] = fma(Omega, here.B[j][b], sums.B[j][b]);
             repeat<Dim>([&](auto k) { sums.F[k][b] = fma(here.B[j][b], sigma[mandel(j, k)], sums.F[k][b]); });
           });
         });
+        sums.shift.add(Omega, here);
         if constexpr (is_axisymmetric<Basis>) {
           const W r = of_points<Basis>(p, points.x[0]).of(l), per_r = select(Omega > W(0.0), W(1.0) / r, W(0.0));
           repeat<nodal_batches<Basis>>([&](auto b) {
@@ -105,18 +112,30 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Points<Ba
   });
 }
 
-/// The sums of all points of an element.
 template <class Basis>
-inline Nodal<Basis> total(const WideNodal<Basis>& sum) {
-  Nodal<Basis> all;
-  repeat<nodal_batches<Basis>>([&](auto b) { all[b] = folded<Basis>(sum[b]); });
-  return all;
+inline void store_mass_matrix(const ElementSums<Basis>& sums, double* M) {
+  constexpr int K = Basis::nodes, W = lanes_of<Lane<Basis>>;
+  repeat<ElementSums<Basis>::rows>([&](auto k) {
+    const auto row = total<Basis>(sums.M[k]);
+    double* to = M + k * nodal_size<Basis>;
+    if constexpr (2 * k < K) {
+      store_nodal<Basis>(row, to);
+    } else if constexpr (K == W) {
+      store_first(row[0], to, K / 2);
+    } else {
+      repeat<nodal_batches<Basis> / 2>([&](auto b) { row[b].store_unaligned(to + b * W); });
+    }
+  });
 }
-template <class Basis, std::size_t n>
-inline std::array<Nodal<Basis>, n> totals(const std::array<WideNodal<Basis>, n>& sums) {
-  std::array<Nodal<Basis>, n> all;
-  repeat<static_cast<int>(n)>([&](auto j) { all[j] = total<Basis>(sums[j]); });
-  return all;
+
+/// Batch b of row k.
+template <class Basis, int k, int b>
+inline Lane<Basis> load_mass_matrix(const double* M) {
+  constexpr int K = Basis::nodes, W = lanes_of<Lane<Basis>>;
+  const double* from = M + k * nodal_size<Basis>;
+  if constexpr (2 * k < K) return Lane<Basis>::load_unaligned(from + b * W);
+  if constexpr (K == W) return load_twice<Lane<Basis>>(from);
+  return Lane<Basis>::load_unaligned(from + b % std::max(1, nodal_batches<Basis> / 2) * W);
 }
 
 /// F_i^int of an element whose points are used by a quadrature of w and s_i.
@@ -125,16 +144,12 @@ inline std::array<Nodal<Basis>, Basis::dim> internal_force(const ElementSums<Bas
                                                            const Quadrature<Basis>& quadrature) {
   constexpr int Dim = Basis::dim;
   using T = Lane<Basis>;
-  const auto Omega_sigma = make_array<sym_size<Dim>>([&](auto c) { return T(xsimd::hadd(sums.Omega_sigma[c])); });
+  const auto Omega_sigma = make_array<sym_size<Dim>>([&](auto c) { return xsimd::hadd(sums.Omega_sigma[c]); });
   auto F = totals<Basis>(sums.F);
+  quadrature.shift.add_force(Omega_sigma, F);
   repeat<nodal_batches<Basis>>([&](auto b) {
-    repeat<Dim>([&](auto j) {
-      repeat<has_shift<Basis> ? Dim : 0>(
-          [&](auto k) { F[j][b] = fma(quadrature.shift[k][b], Omega_sigma[mandel(j, k)], F[j][b]); });
-      if constexpr (is_axisymmetric<Basis> && j == 0)
-        F[j][b] = fma(quadrature.hoop_shift[0][b], Omega_sigma[2], F[j][b]);
-      F[j][b] *= T(quadrature.weight);
-    });
+    if constexpr (is_axisymmetric<Basis>) F[0][b] = fma(quadrature.hoop_shift[0][b], T(Omega_sigma[2]), F[0][b]);
+    repeat<Dim>([&](auto j) { F[j][b] *= T(quadrature.weight); });
   });
   return F;
 }

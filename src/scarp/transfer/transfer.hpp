@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 
 #include "scarp/transfer/field.hpp"
 #include "scarp/transfer/strains.hpp"
@@ -13,7 +14,7 @@ namespace scarp::transfer {
 /// What moves the points, of each node: c_i, by which their velocity changes (eq. 6; step.cpp), and du_i = v_i dt
 /// (eq. 16), beside each other. Whole rows, so that they may be loaded as such.
 template <int Dim>
-struct alignas(8 * row_size<2 * Dim>) Motion {
+struct alignas(8 * std::bit_ceil(unsigned{row_size<2 * Dim>})) Motion {
   std::array<double, row_size<2 * Dim>> row{};
 
   double& dv(int j) { return row[j]; }
@@ -45,7 +46,7 @@ inline void add_momentum(const double* M, const NodeRows<Basis>& motion, const i
   std::array<Nodal<Basis>, Dim> p;
   repeat<mass_matrix_rows(K)>([&](auto k) {
     Nodal<Basis> M_k;  // M_i,i+k
-    repeat<batches>([&](auto b) { M_k[b] = Lane<Basis>::load_unaligned(M + k * nodal_size<Basis> + b * W); });
+    repeat<batches>([&](auto b) { M_k[b] = load_mass_matrix<Basis, k, b>(M); });
     repeat<Dim>([&](auto j) {
       const auto c_k = turned<K, k>(c[j]);
       repeat<batches>([&](auto b) { p[j][b] = k == 0 ? M_k[b] * c_k[b] : fma(M_k[b], c_k[b], p[j][b]); });
@@ -102,32 +103,10 @@ template <class Basis>
 struct ElementMotion {
   NodeRows<Basis> motion;              ///< Motion of each local node
   NodeRows<Basis> a_dt;                ///< a_i dt of each; only where there is a PIC share
-  const double* shift;                 ///< s_i of its quadrature: nodal_size numbers for each component
+  const double* shift;                 ///< Shift of its quadrature, as stored
   double weight, size;                 ///< w of its quadrature, and its least height
   const double* hoop_shift = nullptr;  ///< that of N_i / r, in a body of revolution
 };
-
-/// Σ du_i ⊗ s_i, component (j, k) at j * Dim + k; zero where there is no shift.
-template <class Basis>
-inline Vec<Basis::dim * Basis::dim> shifted_gradient(const ElementMotion<Basis>& element) {
-  constexpr int Dim = Basis::dim;
-  using T = typename Row<2 * Dim>::value_type;
-  Vec<Dim * Dim> sum{};
-  if constexpr (!has_shift<Basis>) return sum;
-  repeat<Dim>([&](auto k) {
-    alignas(64) double column[row_size<2 * Dim>];
-    repeat<row_size<2 * Dim> / lanes_of<T>>([&](auto b) {
-      T part(0.0);
-      repeat<Basis::nodes>([&](auto i) {
-        part = fma(T::load_aligned(element.motion[i] + b * lanes_of<T>), T(element.shift[k * nodal_size<Basis> + i]),
-                   part);
-      });
-      part.store_aligned(column + b * lanes_of<T>);
-    });
-    repeat<Dim>([&](auto j) { sum[j * Dim + k] = column[Dim + j]; });
-  });
-  return sum;
-}
 
 /// Strain increment of the circumference at distance r from the axis, where the radial displacement is du:
 /// Σ du_i,r (N_i / r + s_i).
@@ -149,8 +128,8 @@ inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotio
   constexpr int Dim = Basis::dim;
   using T = PointBatch<Dim>;
   const Field<Basis, 2 * Dim> motion(cell, element.motion);
-  const Field<Basis, Dim> a_dt(cell, pic ? element.a_dt : element.motion);
-  const auto shifted = shifted_gradient<Basis>(element);
+  const Field<Basis, Dim, Rows::just> a_dt(cell, pic ? element.a_dt : element.motion);
+  const ShiftedGradients<Basis> shifted(element.motion, element.shift);
   const double w = element.weight, per_size2 = 1 / (element.size * element.size),
                stiffer = w > 1 ? w * per_size2 : per_size2;
   for_each_batch_of_element<T>(range, [&](const auto& p, int first) {
@@ -172,7 +151,7 @@ inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotio
       }
       x[j] = p.load(points.x[j]) + here.value(Dim + j);
       p.store(x[j], points.x[j]);
-      repeat<Dim>([&](auto k) { L[j][k] = here.template derivative<k>(Dim + j) + T(shifted[j * Dim + k]); });
+      repeat<Dim>([&](auto k) { L[j][k] = shifted.template derivative<j, k>(motion, here, local); });
     });
     sums.mass += m;
     sums.kinetic_energy = fma(m, v2, sums.kinetic_energy);

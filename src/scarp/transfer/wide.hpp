@@ -65,7 +65,7 @@ inline Lane<Basis> folded(const Wide<Basis>& x) {
 
 /// The same for both points.
 template <class Basis>
-inline Wide<Basis> for_each_point(const Lane<Basis>& first, const Lane<Basis>& second) {
+inline Wide<Basis> for_each_point(const Lane<Basis>& first, [[maybe_unused]] const Lane<Basis>& second) {
   if constexpr (points_at_once<Basis> == 2) {
 #if defined(__AVX512F__)
     return Wide<Basis>(_mm512_insertf64x4(_mm512_castpd256_pd512(first), second, 1));
@@ -82,6 +82,20 @@ inline Wide<Basis> for_each_point(const Lane<Basis>& both) {
 template <class Basis>
 inline WideNodal<Basis> for_each_point(const Nodal<Basis>& both) {
   return make_array<nodal_batches<Basis>>([&](auto b) { return for_each_point<Basis>(both[b]); });
+}
+
+/// The parts of all points added up.
+template <class Basis>
+inline Nodal<Basis> total(const WideNodal<Basis>& sum) {
+  Nodal<Basis> all;
+  repeat<nodal_batches<Basis>>([&](auto b) { all[b] = folded<Basis>(sum[b]); });
+  return all;
+}
+template <class Basis, std::size_t n>
+inline std::array<Nodal<Basis>, n> totals(const std::array<WideNodal<Basis>, n>& sums) {
+  std::array<Nodal<Basis>, n> all;
+  repeat<static_cast<int>(n)>([&](auto j) { all[j] = total<Basis>(sums[j]); });
+  return all;
 }
 
 /// A number of each point of a batch, to be had in the lanes of these points' nodes: of(l) for point l (and l + 1).
