@@ -12,7 +12,7 @@ import struct
 import sys
 
 import cases
-from cases import COLUMN_IN_SPACE, ProgramTest, contents, place, read, replaced
+from cases import COLUMN, COLUMN_IN_SPACE, ProgramTest, contents, place, read, replaced
 
 import numpy as np
 
@@ -119,6 +119,74 @@ class Surfaces(Frames):
         self.write("hill.toml", missing)
         self.refused("run", "hill.toml", "--quiet", "--out", "r", parts=["hill.toml:" + place(missing, "stl ="), "nosuch.stl"])
         self.assertFalse(os.path.exists(self.path("r")))
+
+
+# The column stands in a grid of other numbers, lengths and origins along each axis.
+PLANE = replaced(COLUMN, "size = [1.0, 4.0], element = 0.5", "origin = [-0.5, 0.0], size = [2.0, 4.5], elements = [4, 3]")
+PLANE = replaced(PLANE, "duration = 0.2", "duration = 0.02")
+SPACE = replaced(COLUMN_IN_SPACE, "size = [1.0, 0.5, 4.0], element = 0.5",
+                 "origin = [-0.5, -0.25, 0.0], size = [2.0, 1.2, 4.5], elements = [4, 2, 3]")
+SPACE = replaced(SPACE, "duration = 0.2", "duration = 0.02")
+
+
+def lattice(*axes):
+    """Every place of these values along the axes, the first axis fastest, as points in space."""
+    places = [place[::-1] for place in itertools.product(*axes[::-1])]
+    return np.array([place + (0.0,) * (3 - len(axes)) for place in places])
+
+
+class Meshes(Frames):
+    """mesh.vtu shows the elements, and frames the points, whatever the shape functions: nodes of B-splines are control points, more than there are
+    corners and elsewhere."""
+
+    QUARTERS = 0.25 * (np.arange(12) + 0.5)  # places of points along the column
+
+    def expect_elements(self, mesh, corners, firsts, steps, cell_type):
+        """The mesh has these corners; each element those at these steps from its first one, in the order of VTK's cell type."""
+        self.expect_near(mesh["Points"], corners, 1e-15)  # a rounding or two of some metres
+        self.assertEqual(mesh["connectivity"].tolist(), [first + step for first in firsts for step in steps])
+        self.assertEqual(mesh["offsets"].tolist(), [len(steps) * (e + 1) for e in range(len(firsts))])
+        self.assertEqual(mesh["types"].tolist(), [cell_type] * len(firsts))
+
+    def expect_points(self, frames, places, volume):
+        """Points begin at these places, in this order, with this volume, and go where their displacement says."""
+        first, last = frames
+        self.expect_near(first["Points"], places, 1e-15)
+        self.expect_near(first["volume"], volume, 1e-16)
+        self.expect_near(first["displacement"], 0, 0)
+        self.expect_near(last["Points"], first["Points"] + last["displacement"], 1e-15)
+        self.assertGreater(np.linalg.norm(last["displacement"], axis=1).min(), 0)  # all have moved
+        for frame in frames:
+            count = len(places)
+            self.assertEqual(frame["connectivity"].tolist(), list(range(count)))
+            self.assertEqual(frame["offsets"].tolist(), list(range(1, count + 1)))
+            self.assertEqual(frame["types"].tolist(), [1] * count)
+
+    def expect_geometry(self, text, places, volume, *elements):
+        """The case with each shape shows these points, and these elements as expect_elements() takes them."""
+        self.write("case.toml", text)
+        corners, firsts = elements[:2]
+        for shape in ("linear", "gimp", "b-spline"):
+            with self.subTest(shape=shape):
+                self.scarp("run", "case.toml", "--quiet", "--out", shape, "--set", f"method.shape={shape}")
+                self.expect_elements(vtu.read_vtu(self.path(shape, "mesh.vtu")), *elements)
+                self.expect_points(self.frames(shape), places, volume)
+                # ParaView sizes its arrays by the heads; the reader here does not look at them.
+                for name, points, cells in (("mesh", len(corners), len(firsts)), ("points_00000", len(places), len(places))):
+                    self.assertIn(f'<Piece NumberOfPoints="{points}" NumberOfCells="{cells}">'.encode(),
+                                  read(self.path(shape, name + ".vtu")))
+
+    def test_a_plane_grid_with_every_shape(self):
+        self.expect_geometry(PLANE, lattice(self.QUARTERS[:4], self.QUARTERS), 0.25**2,
+                             lattice(np.linspace(-0.5, 1.5, 5), np.linspace(0, 4.5, 4)),
+                             [x + 5 * y for y in range(3) for x in range(4)], [0, 1, 6, 5], 9)
+
+    def test_a_grid_in_space_with_every_shape(self):
+        layers = lattice(self.QUARTERS[:4], self.QUARTERS, self.QUARTERS[:2])[:, [0, 2, 1]]  # of the polygon, along y
+        self.expect_geometry(SPACE, layers, 0.25**3,
+                             lattice(np.linspace(-0.5, 1.5, 5), np.linspace(-0.25, 0.95, 3), np.linspace(0, 4.5, 4)),
+                             [x + 5 * (y + 3 * z) for z in range(3) for y in range(2) for x in range(4)],
+                             [0, 1, 6, 5, 15, 16, 21, 20], 12)
 
 
 if __name__ == "__main__":
