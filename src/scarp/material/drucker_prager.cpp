@@ -8,8 +8,8 @@ constexpr double degree = 0.017453292519943295769;
 }  // namespace
 
 DruckerPrager::DruckerPrager(const Parameters& p)
-    : parameters_(p),
-      elasticity_(Elasticity::from(p.E, p.nu)),
+    : ElastoplasticLaw(p.E, p.nu),
+      parameters_(p),
       softens_(p.c.active() || p.phi.active() || p.psi.active()),
       sin_phi_(std::sin(degree * p.phi.peak)),
       cos_phi_(std::cos(degree * p.phi.peak)),

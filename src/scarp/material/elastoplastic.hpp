@@ -1,13 +1,14 @@
 // What the linear-elastic, plastic laws share: a state of stress, plastic strain and its accumulated deviatoric part κ;
 // strength that falls with κ; and the advance of a state by elastic predictor and return to the yield surface.
 //
-// A law of this kind gives
-//   elasticity()             K and G
+// A law of this kind is an ElastoplasticLaw of itself, and gives
 //   softens()                does its strength depend on κ?
 //   resolve(trial)           what of a trial stress does not depend on κ: invariants or principal values
 //   correction(at, κ)        trial stress less the stress that it returns to on the surface of κ, see Correction
 //   excess(at, κ, way)       of the stress beyond the surface, see Excess
 //   compose(at, correction)  that difference as a tensor
+//   error_norm(s, error)     what the error of a stress is measured by
+//   K0()                     horizontal over vertical stress where nothing moves sideways
 #pragma once
 
 #include <cmath>
@@ -253,4 +254,51 @@ std::vector<double> derived(const PlasticState<double, N>& s) {
 }
 
 }  // namespace elastoplastic
+
+/// What every law of this kind does alike, for `Law` to inherit: class VonMises : public ElastoplasticLaw<VonMises>.
+template <class Law>
+class ElastoplasticLaw {
+ public:
+  template <class T, int N>
+  using State = PlasticState<T, N>;
+
+  const Elasticity& elasticity() const { return elasticity_; }
+
+  template <class T, int N>
+  Trial<PlasticState<T, N>, T> update(const PlasticState<T, N>& s, const Increment<T, N>& i, double) const {
+    return elastoplastic::update(law(), s, i.deps);
+  }
+  template <class T, int N>
+  Mask<T> admissible(const PlasticState<T, N>& s) const {
+    return trace(s.sigma) == trace(s.sigma);
+  }
+  template <class T, int N>
+  Notes<T> accept(PlasticState<T, N>& s, double) const {
+    return elastoplastic::accept(law(), s);
+  }
+  /// The elastic one, of unloading.
+  template <class T, int N>
+  T p_wave_modulus(const PlasticState<T, N>&) const {
+    return T(elasticity_.K + 4.0 / 3.0 * elasticity_.G);
+  }
+
+  template <int N>
+  PlasticState<double, N> initial_state(const Sym<double, N>& sigma, double, const Values& keys,
+                                        std::vector<Problem>& problems) const {
+    return elastoplastic::initial_state(law(), sigma, keys, problems);
+  }
+  template <int N>
+  std::vector<double> derived(const PlasticState<double, N>& s) const {
+    return elastoplastic::derived(s);
+  }
+
+ protected:
+  ElastoplasticLaw(double E, double nu) : elasticity_(Elasticity::from(E, nu)) {}
+
+  Elasticity elasticity_;
+
+ private:
+  const Law& law() const { return static_cast<const Law&>(*this); }
+};
+
 }  // namespace scarp

@@ -17,7 +17,7 @@
 
 namespace scarp {
 
-class MohrCoulomb {
+class MohrCoulomb : public ElastoplasticLaw<MohrCoulomb> {
  public:
   struct Parameters {
     double E, nu;        ///< Young's modulus [stress], Poisson's ratio
@@ -25,9 +25,6 @@ class MohrCoulomb {
     Softening phi, psi;  ///< angles of friction and dilation [degrees]
     double tension;      ///< tensile strength [stress]; no more than the apex
   };
-
-  template <class T, int N>
-  using State = PlasticState<T, N>;
 
   explicit MohrCoulomb(const Parameters& p);
 
@@ -38,7 +35,6 @@ class MohrCoulomb {
                                  std::vector<Problem>& warnings);
 
   const Parameters& parameters() const { return parameters_; }
-  const Elasticity& elasticity() const { return elasticity_; }
   bool softens() const { return softens_; }
 
   template <class T>
@@ -64,28 +60,11 @@ class MohrCoulomb {
     return composed(c.size, at.projection);
   }
 
-  template <class T, int N>
-  Trial<State<T, N>, T> update(const PlasticState<T, N>& s, const Increment<T, N>& i, double) const {
-    return elastoplastic::update(*this, s, i.deps);
-  }
-  template <class T, int N>
-  Mask<T> admissible(const PlasticState<T, N>& s) const {
-    return trace(s.sigma) == trace(s.sigma);
-  }
   /// Errors of stress are taken relative to ‖σ‖ + c + E/10⁵: what a strain of 10⁻⁵ makes is not followed to digits that
   /// nobody sees where a cohesionless point stands at no stress.
   template <class T, int N>
   T error_norm(const PlasticState<T, N>& s, const PlasticState<T, N>& e) const {
     return elastoplastic::error_norm(e, norm(s.sigma) + T(parameters_.c.peak + 1e-5 * parameters_.E));
-  }
-  template <class T, int N>
-  Notes<T> accept(PlasticState<T, N>& s, double) const {
-    return elastoplastic::accept(*this, s);
-  }
-  /// The elastic one, of unloading.
-  template <class T, int N>
-  T p_wave_modulus(const PlasticState<T, N>&) const {
-    return T(elasticity_.K + 4.0 / 3.0 * elasticity_.G);
   }
 
   /// Elastic, or what friction alone can hold back (active pressure) where that is more.
@@ -94,19 +73,8 @@ class MohrCoulomb {
     return elastic > (1.0 - s) / (1.0 + s) ? elastic : (1.0 - s) / (1.0 + s);
   }
 
-  template <int N>
-  PlasticState<double, N> initial_state(const Sym<double, N>& sigma, double, const Values& keys,
-                                        std::vector<Problem>& problems) const {
-    return elastoplastic::initial_state(*this, sigma, keys, problems);
-  }
-  template <int N>
-  std::vector<double> derived(const PlasticState<double, N>& s) const {
-    return elastoplastic::derived(s);
-  }
-
  private:
   Parameters parameters_;
-  Elasticity elasticity_;
   bool softens_;
   double sin_phi_, cos_phi_, sin_psi_;  ///< at the peak
 };

@@ -13,17 +13,14 @@
 
 namespace scarp {
 
-class VonMises {
+class VonMises : public ElastoplasticLaw<VonMises> {
  public:
   struct Parameters {
     double E, nu;   ///< Young's modulus [stress], Poisson's ratio
     Softening s_u;  ///< undrained shear strength [stress]
   };
 
-  template <class T, int N>
-  using State = PlasticState<T, N>;
-
-  explicit VonMises(const Parameters& p) : parameters_(p), elasticity_(Elasticity::from(p.E, p.nu)) {}
+  explicit VonMises(const Parameters& p) : ElastoplasticLaw(p.E, p.nu), parameters_(p) {}
 
   static ModelDescription description();
   /// Constants from the keys of description(), all present and within their bounds; what only shows between constants
@@ -32,7 +29,6 @@ class VonMises {
                               std::vector<Problem>& warnings);
 
   const Parameters& parameters() const { return parameters_; }
-  const Elasticity& elasticity() const { return elasticity_; }
   bool softens() const { return parameters_.s_u.active(); }
 
   template <class T, int N>
@@ -63,46 +59,18 @@ class VonMises {
     return c.size * at.s;
   }
 
-  template <class T, int N>
-  Trial<State<T, N>, T> update(const PlasticState<T, N>& s, const Increment<T, N>& i, double) const {
-    return elastoplastic::update(*this, s, i.deps);
-  }
-  template <class T, int N>
-  Mask<T> admissible(const PlasticState<T, N>& s) const {
-    return trace(s.sigma) == trace(s.sigma);
-  }
   /// Errors of stress are taken relative to ‖σ‖ and the strength, as in the other laws; relative to the strength alone
   /// they cost remoulded clay that flows some five times the substeps.
   template <class T, int N>
   T error_norm(const PlasticState<T, N>& s, const PlasticState<T, N>& e) const {
     return elastoplastic::error_norm(e, norm(s.sigma) + T(1.7320508075688772935) * parameters_.s_u(s.kappa));
   }
-  template <class T, int N>
-  Notes<T> accept(PlasticState<T, N>& s, double) const {
-    return elastoplastic::accept(*this, s);
-  }
-  /// The elastic one, of unloading.
-  template <class T, int N>
-  T p_wave_modulus(const PlasticState<T, N>&) const {
-    return T(elasticity_.K + 4.0 / 3.0 * elasticity_.G);
-  }
 
   /// Elastic; whether the strength carries it depends on the depth, and initial_state() says so.
   double K0() const { return parameters_.nu / (1.0 - parameters_.nu); }
 
-  template <int N>
-  PlasticState<double, N> initial_state(const Sym<double, N>& sigma, double, const Values& keys,
-                                        std::vector<Problem>& problems) const {
-    return elastoplastic::initial_state(*this, sigma, keys, problems);
-  }
-  template <int N>
-  std::vector<double> derived(const PlasticState<double, N>& s) const {
-    return elastoplastic::derived(s);
-  }
-
  private:
   Parameters parameters_;
-  Elasticity elasticity_;
 };
 
 }  // namespace scarp
