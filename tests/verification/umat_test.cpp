@@ -80,7 +80,7 @@ std::string elastic(const std::string& library) {
   return "model = \"umat\"\nlibrary = \"laws/" + library + ".so\"\nconstants = [2e3, 0.3]\n";
 }
 
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+double largest_difference(const Column& a, const Column& b) {
   double worst = a.size() == b.size() ? 0 : INFINITY;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
   return worst;
