@@ -65,7 +65,9 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
   Node<Dim>& node = body.buffers.node[n];
   const double m = sum[0], per_mass = 1 / m, *p = sum + 1, *F_int = p + Dim;
   Vec<Dim> F, a;
-  node = {m, per_mass, {}, 0};
+  node.m = m;  // one by one: a whole Node would be loaded from where its parts have just been stored, and wait for them
+  node.per_mass = per_mass;
+  node.held = 0;
   for (int j = 0; j < Dim; ++j) {
     node.v[j] = p[j] * per_mass;
     F[j] = m * body.gravity[j] - F_int[j];
