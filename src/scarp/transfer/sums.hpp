@@ -37,10 +37,10 @@ struct ElementSums {
   using OfNodes = WideNodal<Basis>;
   using OfPoints = PointBatch<dim>;
 
-  OfNodes m;                   ///< Σ m_p N_i
-  std::array<OfNodes, dim> p;  ///< Σ m_p v_p N_i
-  std::array<OfNodes, dim> F;  ///< Σ B_iᵀ σ_p Ω_p
-  ShiftSums<Basis> shift;
+  OfNodes m;                                        ///< Σ m_p N_i
+  std::array<OfNodes, dim> p;                       ///< Σ m_p v_p N_i
+  std::array<OfNodes, dim> F;                       ///< Σ B_iᵀ σ_p Ω_p
+  ShiftSums<Basis> shift;                           ///< what s_i follows from
   std::array<OfNodes, Hoop<Basis>{}.size()> hoop;   ///< Σ Ω_p N_i / r
   std::array<OfNodes, rows> M;                      ///< Σ m_p N_i N_{i+k}
   OfPoints Omega = OfPoints(0.0);                   ///< Σ Ω_p
