@@ -74,9 +74,9 @@ State<double, N> random_state(const Subloading& model, std::mt19937& generator) 
 template <int N>
 Columns<N> make_points(const Subloading& model) {
   Columns<N> c;
-  c.state.assign(Columns<N>::size, Column(points));
-  c.deps.assign(N, Column(points));
-  c.spin.assign(N == 4 ? 1 : 3, Column(points));
+  c.state.assign(Columns<N>::size, Column(points, 0.0));
+  c.deps.assign(N, Column(points, 0.0));
+  c.spin.assign(N == 4 ? 1 : 3, Column(points, 0.0));
   std::mt19937 generator(1);
   std::normal_distribution<double> normal;
   for (std::size_t at = 0; at < points;) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ground.hpp"
+#include "scarp/exec/arrange.hpp"
 #include "scarp/run/build.hpp"
 #include "scarp/step/step.hpp"
 
@@ -92,7 +93,7 @@ void order(benchmark::State& loop, bool arrange) {
     body.blocks.front().points = start.front().points;
     loop.ResumeTiming();
     sort_by_element(body.blocks, body.mesh->element_count(), body.active);
-    if (arrange) arrange_in_order(body.blocks);
+    if (arrange) exec::arrange_in_order(body.blocks);
   }
   set_time_per_point(loop, body.point_count());
 }

@@ -87,13 +87,15 @@ TEST(ModifiedCamClay, MixedLanesGiveWhatDoubleGives) {
   std::mt19937 generator(5);
   const auto model = clay({{"p_e", 5}, {"p_c_floor", 0.01}});
   int inside = 0, plastic = 0;
+  std::size_t number = 0;
   for (int round = 0; round < 50; ++round) {
     std::array<State, batch_lanes> s;
     std::array<Sym<double, 6>, batch_lanes> deps;
     ModifiedCamClay::State<Batch, 6> many;
     for (std::size_t i = 0; i < batch_lanes; ++i) {
-      const double size = i % 4 == 3 ? 0.005 : 1;
-      s[i] = start(model, std::array{3.0, 1.003, 1.0, 1.0}[i % 4], size * (p100 + 50.0 * random_tensor<6>(generator)));
+      const std::size_t kind = number++ % 4;
+      const double size = kind == 3 ? 0.005 : 1;
+      s[i] = start(model, std::array{3.0, 1.003, 1.0, 1.0}[kind], size * (p100 + 50.0 * random_tensor<6>(generator)));
       deps[i] = random_tensor<6>(generator, 1e-4);
       if (round % 5 == 0) deps[i] = Sym<double, 6>{{0, 0, 0, 1e-4, 0, 0}};  // no volume change: 0/0 in a careless form
     }
@@ -120,8 +122,8 @@ TEST(ModifiedCamClay, MixedLanesGiveWhatDoubleGives) {
       (norm(one.state.epsp) > 0 ? plastic : inside) += 1;
     }
   }
-  EXPECT_GT(inside, 50);
-  EXPECT_GT(plastic, 50);
+  EXPECT_GT(inside, (inside + plastic) / 10);
+  EXPECT_GT(plastic, (inside + plastic) / 10);
 }
 
 // Random states and increments up to 1e-2: done or reported, never outside the surface, and σ:dε^p ≥ 0 there

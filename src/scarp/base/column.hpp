@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <new>
+#include <utility>
 #include <vector>
 
 namespace scarp {
@@ -14,6 +15,8 @@ void* allocate_column(std::size_t bytes);
 void free_column(void* column);
 }  // namespace detail
 
+/// resize(n) leaves new entries as they are, for memory goes to the thread that writes there first; resize(n, 0.0) sets
+/// them.
 /// A SIMD batch at a multiple of its size lies in one cache line, not across two. Equal places of several arrays are at
 /// different places of a page: large blocks of memory all begin at a page, and a cache keeps only a few lines (twelve,
 /// say) from the same place of pages, fewer than a point has columns.
@@ -27,6 +30,14 @@ struct ColumnAllocator {
 
   Value* allocate(std::size_t count) { return static_cast<Value*>(detail::allocate_column(count * sizeof(Value))); }
   void deallocate(Value* values, std::size_t) { detail::free_column(values); }
+  template <class Other>
+  void construct(Other* at) {
+    ::new (static_cast<void*>(at)) Other;
+  }
+  template <class Other, class... From>
+  void construct(Other* at, From&&... from) {
+    ::new (static_cast<void*>(at)) Other(std::forward<From>(from)...);
+  }
   friend bool operator==(const ColumnAllocator&, const ColumnAllocator&) { return true; }
 };
 

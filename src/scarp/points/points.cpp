@@ -7,21 +7,6 @@
 namespace scarp {
 namespace {
 
-/// column[i] = column[order[i]]
-template <class Spare>
-struct Permute {
-  const std::vector<int>& order;
-  Spare& spare;
-
-  template <class Array>
-  void operator()(Array& column) const {
-    auto& arranged = std::get<Array>(spare);
-    arranged.resize(column.size());
-    for (std::size_t i = 0; i < order.size(); ++i) arranged[i] = column[order[i]];
-    column.swap(arranged);
-  }
-};
-
 /// Elements that hold points and are not active yet get the slot `taken` and go to active.fresh.
 template <int Dim>
 void find_fresh(const std::vector<Block<Dim>>& blocks, ActiveElements& active) {
@@ -88,15 +73,6 @@ bool sort_by_element(std::vector<Block<Dim>>& blocks, int element_count, ActiveE
 }
 
 template <int Dim>
-void arrange_in_order(std::vector<Block<Dim>>& blocks) {
-  for (auto& block : blocks) {
-    if (std::is_sorted(block.order.begin(), block.order.end())) continue;
-    for_each_column(block, Permute<decltype(block.spare)>{block.order, block.spare});
-    std::iota(block.order.begin(), block.order.end(), 0);
-  }
-}
-
-template <int Dim>
 void remove_points(Block<Dim>& block, const std::vector<std::uint8_t>& gone) {
   std::vector<int> kept;
   for (int i = 0; i < block.size(); ++i) {
@@ -110,8 +86,6 @@ void remove_points(Block<Dim>& block, const std::vector<std::uint8_t>& gone) {
 
 template bool sort_by_element<2>(std::vector<Block<2>>&, int, ActiveElements&);
 template bool sort_by_element<3>(std::vector<Block<3>>&, int, ActiveElements&);
-template void arrange_in_order<2>(std::vector<Block<2>>&);
-template void arrange_in_order<3>(std::vector<Block<3>>&);
 template void remove_points<2>(Block<2>&, const std::vector<std::uint8_t>&);
 template void remove_points<3>(Block<3>&, const std::vector<std::uint8_t>&);
 

@@ -70,7 +70,7 @@ struct Block {
   // Order by element, kept by sort_by_element(): the points of the active element in slot s are
   // order[begin[s]] ... order[begin[s + 1] - 1].
   std::vector<int> order, begin;
-  std::tuple<Column, std::vector<int>, std::vector<std::uint8_t>> spare;  ///< for arrange_in_order()
+  std::tuple<Column, std::vector<int>, std::vector<std::uint8_t>> spare;  ///< for exec::arrange_in_order()
 
   int size() const { return points.size(); }
 };
@@ -97,7 +97,9 @@ void for_each_column(Block<Dim>& b, F&& f) {
 /// Sets the number of points, new entries zero.
 template <int Dim>
 void resize(Block<Dim>& block, int size) {
-  for_each_column(block, [size](auto& column) { column.resize(static_cast<std::size_t>(size)); });
+  for_each_column(block, [size]<class Array>(Array& column) {
+    column.resize(static_cast<std::size_t>(size), typename Array::value_type{});
+  });
 }
 
 /// Room for a block to be ordered by so many elements without allocating.
@@ -123,11 +125,6 @@ struct ActiveElements {
 /// Returns whether the active elements are others than before.
 template <int Dim>
 bool sort_by_element(std::vector<Block<Dim>>& blocks, int element_count, ActiveElements& active);
-
-/// Puts the arrays of every block into the order of sort_by_element(), so that sweeps over elements stream through
-/// memory.
-template <int Dim>
-void arrange_in_order(std::vector<Block<Dim>>& blocks);
 
 /// Takes out the points of a block for which gone[i] is set; the others keep their order.
 template <int Dim>

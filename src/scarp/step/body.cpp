@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "scarp/base/error.hpp"
+#include "scarp/exec/arrange.hpp"
 #include "scarp/exec/parallel.hpp"
 #include "scarp/mesh/with_basis.hpp"
 #include "scarp/transfer/transfer.hpp"
@@ -96,7 +97,7 @@ void locate_points(Body<Dim>& body) {
   body.least_mass = 1e-12 * lightest;
   reorder(body);
   make_room(body);
-  arrange_in_order(body.blocks);
+  exec::arrange_in_new_memory(body.blocks);
   body.out_of_place = 0;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "scarp/base/error.hpp"
+#include "scarp/exec/arrange.hpp"
 #include "scarp/exec/parallel.hpp"
 #include "scarp/step/phases.hpp"
 
@@ -61,7 +62,7 @@ void order_points(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>&
   // Sweeps by element reach out of order for these points; a tenth of them is where putting all in order again pays.
   body.out_of_place += books.changed_element;
   if (10 * body.out_of_place > body.point_count()) {
-    arrange_in_order(body.blocks);
+    exec::arrange_in_order(body.blocks);
     body.out_of_place = 0;
   }
 }

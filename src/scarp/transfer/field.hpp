@@ -212,20 +212,22 @@ requires(Basis::stores_local&& Basis::nodes == 1 << Basis::dim) class Field<Basi
     }
 
     /// Local coordinates of the points at x, not far from here; where that worked. Newton's method with the Jacobian of
-    /// here: each step is of the order of the distance times the one before, so that little more than round-off is left
-    /// after one of 1e-9.
+    /// here: the error after a step is less than that step times the first one.
     Mask<T> follow(const std::array<T, Dim>& x, std::array<T, Dim>& local) const {
       std::array<T, Dim> now = s;
+      T first(0.0);
       Mask<T> good = s[0] != s[0];
       for (int iteration = 0; iteration < 3 && !all(good); ++iteration) {
         const auto off = field.place_.offset(x, now);
-        good = s[0] == s[0];
+        T largest(0.0);
         repeat<Dim>([&](auto k) {
           T step = I[k][0] * off[0];
           repeat<Dim - 1>([&](auto j) { step = fma(I[k][j + 1], off[j + 1], step); });
           now[k] += step;
-          good = good && (abs(step) < T(1e-9));
+          largest = max(largest, abs(step));
         });
+        if (iteration == 0) first = largest;
+        good = largest * first < T(1e-13);
       }
       repeat<Dim>([&](auto k) { local[k] = T(2.0) * now[k] - T(1.0); });
       return good;

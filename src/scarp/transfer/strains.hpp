@@ -23,9 +23,9 @@ struct Strains {
     constexpr std::size_t widest = 8;
     if (volume.size() >= static_cast<std::size_t>(points) + widest) return;
     const std::size_t room = 2 * static_cast<std::size_t>(points) + widest;
-    for (auto& column : deps) column.resize(room);
-    for (auto& column : spin) column.resize(room);
-    for (auto* column : {&volume, &per_mass, &speed2}) column->resize(room);
+    for (auto& column : deps) column.resize(room, 0.0);
+    for (auto& column : spin) column.resize(room, 0.0);
+    for (auto* column : {&volume, &per_mass, &speed2}) column->resize(room, 0.0);
   }
 };
 
