@@ -18,14 +18,14 @@ std::size_t next_place() {
 
 void* allocate_column(std::size_t bytes) {
   const std::size_t before = bytes < page ? cache_line : cache_line + next_place();
-  char* memory = static_cast<char*>(::operator new(before + bytes, std::align_val_t{cache_line}));
+  char* memory = static_cast<char*>(::operator new (before + bytes, std::align_val_t{cache_line}));
   char* column = memory + before;
   reinterpret_cast<Header*>(column)[-1] = memory;
   return column;
 }
 
 void free_column(void* column) {
-  ::operator delete(static_cast<Header*>(column)[-1], std::align_val_t{cache_line});
+  ::operator delete (static_cast<Header*>(column)[-1], std::align_val_t{cache_line});
 }
 
 }  // namespace scarp::detail
