@@ -213,11 +213,7 @@ TEST_P(Discs, TurningDiscSwellsByTheSquareOfItsTurnInEachStep) {
       fine.low, fine.high);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, Discs, testing::ValuesIn(all_shapes), [](const auto& its) {
-  std::string name = name_of(its.param);
-  std::erase(name, '-');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Shapes, Discs, testing::ValuesIn(all_shapes), label_of);
 
 }  // namespace
 }  // namespace scarp::verification

@@ -18,6 +18,13 @@ inline std::string name_of(GridFunctions shape) {
   return shape == GridFunctions::linear ? "linear" : shape == GridFunctions::gimp ? "gimp" : "b-spline";
 }
 
+/// The name of a test with a shape as its parameter.
+inline constexpr auto label_of = [](const auto& its) {
+  std::string name = name_of(its.param);
+  std::erase(name, '-');
+  return name;
+};
+
 /// Shape functions and the settings of the step.
 struct Method {
   GridFunctions shape = GridFunctions::linear;

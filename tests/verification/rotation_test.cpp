@@ -197,11 +197,7 @@ TEST_P(Turning, NodesOnChordsKeepVolumeAndAddTheKnownStrain) {
   expect_chords_without_growth<3>(GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, Turning, testing::ValuesIn(all_shapes), [](const auto& its) {
-  std::string name = name_of(its.param);
-  std::erase(name, '-');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Shapes, Turning, testing::ValuesIn(all_shapes), label_of);
 
 }  // namespace
 }  // namespace scarp::verification

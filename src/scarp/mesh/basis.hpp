@@ -167,10 +167,7 @@ struct Box {
    public:
     Cell(const Mesh<Dim>& mesh, int e) {
       const auto n = mesh.element_nodes(e);
-      for (int i = 0; i < nodes; ++i) {
-        corner_[i] = mesh.nodes[n[i]].data();
-        x_[i] = mesh.nodes[n[i]];
-      }
+      for (int i = 0; i < nodes; ++i) corner_[i] = mesh.nodes[n[i]].data();
     }
 
     /// Newton's method from xi, the local coordinates of a point of the element not far from x. Convergence is
@@ -185,7 +182,7 @@ struct Box {
         multilinear<Dim>(s, N);
         std::array<T, Dim> off = x;
         for (int j = 0; j < Dim; ++j) {
-          for (int i = 0; i < nodes; ++i) off[j] = off[j] - N[i] * T(x_[i][j]);
+          for (int i = 0; i < nodes; ++i) off[j] = off[j] - N[i] * T(corner_[i][j]);
         }
         std::array<std::array<T, Dim>, nodes> dN;
         std::array<std::array<T, Dim>, Dim> I;
@@ -283,8 +280,8 @@ struct Box {
       std::array<std::array<T, Dim>, Dim> J;
       for (int j = 0; j < Dim; ++j) {
         for (int k = 0; k < Dim; ++k) {
-          J[j][k] = T(x_[0][j]) * dN[0][k];
-          for (int i = 1; i < nodes; ++i) J[j][k] = J[j][k] + T(x_[i][j]) * dN[i][k];
+          J[j][k] = T(corner_[0][j]) * dN[0][k];
+          for (int i = 1; i < nodes; ++i) J[j][k] = J[j][k] + T(corner_[i][j]) * dN[i][k];
         }
       }
       return inverse(J, I);
@@ -305,7 +302,6 @@ struct Box {
     }
 
     std::array<const double*, nodes> corner_;
-    std::array<Vec<Dim>, nodes> x_;
   };
 };
 

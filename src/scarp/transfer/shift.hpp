@@ -19,7 +19,7 @@ struct ShiftSums {
   std::array<WideNodal<Basis>, rows> B;
 
   ShiftSums() {
-    repeat<rows>([&](auto j) { repeat<nodal_batches<Basis>>([&](auto b) { B[j][b] = Wide<Basis>(0.0); }); });
+    repeat<rows>([&](auto j) { clear<Basis>(B[j]); });
   }
 
   /// Adds the points of some lanes, of which `volume` is in the lanes;

@@ -47,13 +47,13 @@ struct ElementSums {
   std::array<OfPoints, sym_size<dim>> Omega_sigma;  ///< Σ Ω_p σ_p
 
   ElementSums() {
-    const auto zero = [](auto&... of_nodes) {
-      (repeat<nodal_batches<Basis>>([&](auto b) { of_nodes[b] = Wide<Basis>(0.0); }), ...);
-    };
-    zero(m);
-    repeat<dim>([&](auto j) { zero(p[j], F[j]); });
-    repeat<rows>([&](auto k) { zero(M[k]); });
-    if constexpr (is_axisymmetric<Basis>) zero(hoop[0]);
+    clear<Basis>(m);
+    repeat<dim>([&](auto j) {
+      clear<Basis>(p[j]);
+      clear<Basis>(F[j]);
+    });
+    repeat<rows>([&](auto k) { clear<Basis>(M[k]); });
+    if constexpr (is_axisymmetric<Basis>) clear<Basis>(hoop[0]);
     repeat<sym_size<dim>>([&](auto c) { Omega_sigma[c] = OfPoints(0.0); });
   }
 };

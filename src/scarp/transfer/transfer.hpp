@@ -37,11 +37,22 @@ struct MotionSums {
   MotionSums() { momentum.fill(T(0.0)); }
 };
 
+/// Adds momentum p of an element's local nodes to the places of its nodes.
+template <class Basis>
+inline void momentum_to_places(const std::array<Nodal<Basis>, Basis::dim>& p, const int* place, double* momentum) {
+  constexpr int Dim = Basis::dim, W = lanes_of<Lane<Basis>>;
+  repeat<nodal_batches<Basis>>([&](auto b) {
+    std::array<Lane<Basis>, momentum_size<Dim>> of_batch;
+    repeat<momentum_size<Dim>>([&](auto j) { of_batch[j] = j < Dim ? p[j < Dim ? j : 0][b] : Lane<Basis>(0.0); });
+    add_to_places<std::min(W, Basis::nodes - b * W)>(of_batch, place + b * W, momentum);
+  });
+}
+
 /// Steps 4 and 5 for an element that keeps its M_ij: Σ_j M_ij c_j, what the change c_j of the points' velocities adds
 /// to the momentum of local node i (eqs 6, 7; step.cpp), into the places of its nodes.
 template <class Basis>
 inline void add_momentum(const double* M, const NodeRows<Basis>& motion, const int* place, double* momentum) {
-  constexpr int Dim = Basis::dim, K = Basis::nodes, W = lanes_of<Lane<Basis>>, batches = nodal_batches<Basis>;
+  constexpr int Dim = Basis::dim, K = Basis::nodes, batches = nodal_batches<Basis>;
   const auto c = make_array<Dim>([&](auto j) { return nodal<Basis>([&](int i) { return motion[i][j]; }); });
   std::array<Nodal<Basis>, Dim> p;
   repeat<mass_matrix_rows(K)>([&](auto k) {
@@ -58,23 +69,19 @@ inline void add_momentum(const double* M, const NodeRows<Basis>& motion, const i
       }
     });
   });
-  repeat<batches>([&](auto b) {
-    std::array<Lane<Basis>, momentum_size<Dim>> of_batch;
-    repeat<momentum_size<Dim>>([&](auto j) { of_batch[j] = j < Dim ? p[j < Dim ? j : 0][b] : Lane<Basis>(0.0); });
-    add_to_places<std::min(W, K - b * W)>(of_batch, place + b * W, momentum);
-  });
+  momentum_to_places<Basis>(p, place, momentum);
 }
 
 /// The same for an element that does not: Σ_p m_p N_i Σ_j N_j c_j, through its points.
 template <class Basis>
 inline void add_momentum(const typename Basis::Cell& cell, const Points<Basis::dim>& points, const PointRange& range,
                          const NodeRows<Basis>& motion, const int* place, double* momentum) {
-  constexpr int Dim = Basis::dim, W = lanes_of<Lane<Basis>>;
+  constexpr int Dim = Basis::dim;
   using T = PointBatch<Dim>;
   const ShapesAtPoints<Basis> shapes(cell);
   const Field<Basis, Dim> c(cell, motion);
   std::array<WideNodal<Basis>, Dim> sums;
-  repeat<Dim>([&](auto j) { repeat<nodal_batches<Basis>>([&](auto b) { sums[j][b] = Wide<Basis>(0.0); }); });
+  repeat<Dim>([&](auto j) { clear<Basis>(sums[j]); });
   for_each_batch_of_element<T>(range, [&](const auto& p, int) {
     const auto local = local_coordinates<Basis>(cell, points, p);
     const auto here = c.at(local);
@@ -90,12 +97,7 @@ inline void add_momentum(const typename Basis::Cell& cell, const Points<Basis::d
       });
     });
   });
-  const auto all = totals<Basis>(sums);
-  repeat<nodal_batches<Basis>>([&](auto b) {
-    std::array<Lane<Basis>, momentum_size<Dim>> of_batch;
-    repeat<momentum_size<Dim>>([&](auto j) { of_batch[j] = j < Dim ? all[j < Dim ? j : 0][b] : Lane<Basis>(0.0); });
-    add_to_places<std::min(W, Basis::nodes - b * W)>(of_batch, place + b * W, momentum);
-  });
+  momentum_to_places<Basis>(totals<Basis>(sums), place, momentum);
 }
 
 /// What an element has for its points in steps 4 to 10.

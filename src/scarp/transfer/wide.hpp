@@ -51,6 +51,12 @@ using Wide = std::conditional_t<points_at_once<Basis> == 2, Batch, Lane<Basis>>;
 template <class Basis>
 using WideNodal = std::array<Wide<Basis>, static_cast<std::size_t>(nodal_batches<Basis>)>;
 
+/// Sets sums to zero.
+template <class Basis>
+inline void clear(WideNodal<Basis>& sum) {
+  repeat<nodal_batches<Basis>>([&](auto b) { sum[b] = Wide<Basis>(0.0); });
+}
+
 /// The points' parts added up.
 template <class Basis>
 inline Lane<Basis> folded(const Wide<Basis>& x) {
