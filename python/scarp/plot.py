@@ -256,7 +256,7 @@ def history(plt, run, _):
             axes.axvline(stage["start"], color="0.6", lw=0.8, ls=":")
 
     lines(panels[0], [("work_gravity", "work of gravity"), ("work_stress", "work of stress"), ("kinetic_energy", "kinetic energy"),
-                      ("dissipation_damping", "damping"), ("dissipation_pic", "PIC share"), ("dissipation_friction", "wall friction")],
+                      ("dissipation_damping", "damping"), ("dissipation_pic", "PIC share"), ("dissipation_waves", "stress rate"), ("dissipation_friction", "wall friction")],
           "energy [kJ/m]")
     lines(panels[1], [("kinetic_energy", "kinetic energy"), ("energy_error", "energy error")], "energy [kJ/m]")
     lines(panels[2], [("unbalanced_ratio", "unbalanced force ratio")], "-", log=True)

@@ -12,6 +12,7 @@
 
 #include "../unit/mesh/grid_oracles.hpp"
 #include "scarp/step/step.hpp"
+#include "twin_strain.hpp"
 
 namespace scarp::test {
 
@@ -24,7 +25,9 @@ class Twin {
   struct Point {
     double m, Omega, half_edge;  ///< of the domain, from the volume at the start
     Vec<Dim> x, v;
-    State state;  ///< compression positive
+    std::array<Vec<Dim>, Dim> C{};  ///< of an affine scheme
+    State state;                    ///< compression positive
+    Sym<double, N> ahead;           ///< σ*, likewise
     int element;
   };
 
@@ -45,6 +48,7 @@ class Twin {
       point.element = p.element[i];
       exec::with_state(block, i, [&](const auto&, const auto& s) {
         if constexpr (std::is_same_v<std::decay_t<decltype(s)>, State>) point.state = s;
+        point.ahead = point.state.sigma;
       });
       least_mass_ = std::min(least_mass_, 1e-12 * point.m);
     }
@@ -54,38 +58,53 @@ class Twin {
   double kinetic_energy = 0, work_gravity = 0;
 
   void advance(double dt, const StepSettings& settings) {
-    find_shapes(settings.quadrature == Quadrature::corrected);
+    const Scheme& scheme = settings.scheme;
+    const double phi = scheme.flip * std::exp(-dt / scheme.pic_time);
+    find_shapes(settings);
     // Steps 1 and 2 (eqs 1–4).
     const auto nodes = body_.mesh->nodes.size();
-    std::vector<double> m(nodes, 0.0);
+    m_.assign(nodes, 0.0);
     std::vector<Vec<Dim>> p(nodes), F(nodes), a(nodes), v(nodes), v_next(nodes);
-    std::vector<std::uint8_t> held(nodes, 0);
+    held_.assign(nodes, 0);
     for (std::size_t k = 0; k < points.size(); ++k) {
       const Point& point = points[k];
+      const double s = at_[k].mean.empty() ? 0 : mean_stress(point);
       for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
         const int n = at_[k].node[i];
-        m[n] += point.m * at_[k].N[i];
+        const double Omega = at_[k].w * point.Omega;
+        m_[n] += point.m * at_[k].N[i];
         for (int j = 0; j < Dim; ++j) {
-          p[n][j] += point.m * point.v[j] * at_[k].N[i];
-          for (int l = 0; l < Dim; ++l) F[n][j] += at_[k].B[i][l] * stress(point, l, j) * at_[k].w * point.Omega;
+          double v_at = point.v[j];
+          for (int l = 0; l < Dim; ++l) v_at += point.C[j][l] * (body_.mesh->nodes[n][l] - point.x[l]);
+          p[n][j] += point.m * v_at * at_[k].N[i];
+          for (int l = 0; l < Dim; ++l) F[n][j] += at_[k].B[i][l] * (stress(point, l, j) - s * (l == j)) * Omega;
         }
-        if (body_.mesh->axisymmetric) F[n][0] += at_[k].B[i][2] * stress(point, 2, 2) * at_[k].w * point.Omega;
+        if (body_.mesh->axisymmetric) F[n][0] += at_[k].B[i][2] * (stress(point, 2, 2) - s) * Omega;
+      }
+      for (const auto& [n, B] : at_[k].mean) {
+        for (int j = 0; j < Dim; ++j) F[n][j] += B[j] * s * at_[k].w * point.Omega;
+        if (body_.mesh->axisymmetric) F[n][0] += B[2] * s * at_[k].w * point.Omega;
       }
     }
     // Step 3 (eq. 5).
     for (std::size_t n = 0; n < nodes; ++n) {
-      if (m[n] < least_mass_) continue;
+      if (m_[n] < least_mass_) continue;
       for (int j = 0; j < Dim; ++j) {
-        const double force = m[n] * body_.gravity[j] - F[n][j];
-        v[n][j] = p[n][j] / m[n];
-        const double sign = v[n][j] > 0 ? 1 : v[n][j] < 0 ? -1 : 0;
-        a[n][j] = (force - settings.damping * std::abs(force) * sign) / m[n];
+        const double force = m_[n] * body_.gravity[j] - F[n][j];
+        v[n][j] = p[n][j] / m_[n];
+        const double soft = scheme.smooth ? 0.1 * force / m_[n] * dt : 0, size = std::hypot(v[n][j], soft);
+        const double sign = size > 0 ? v[n][j] / size : 0;
+        a[n][j] = (force - settings.damping * std::abs(force) * sign) / m_[n];
       }
-      held[n] = constrain_acceleration<Dim>(body_.conditions, static_cast<int>(n), m[n], v[n], dt, a[n]).held;
+      held_[n] = constrain_acceleration<Dim>(body_.conditions, static_cast<int>(n), m_[n], v[n], dt, a[n]).held;
       for (int j = 0; j < Dim; ++j) v_next[n][j] = v[n][j] + a[n][j] * dt;
-      constrain_velocity<Dim>(body_.conditions, static_cast<int>(n), held[n], v_next[n]);
+      constrain_velocity<Dim>(body_.conditions, static_cast<int>(n), held_[n], v_next[n]);
     }
-    // Steps 4 and 5 (eqs 6–8).
+    // Steps 4 and 5 (eqs 6–8). What holds a node is no part of P.
+    if (scheme.two_terms) {
+      a = filtered(a);
+      v_next = filtered(v_next);
+    }
     std::vector<Vec<Dim>> momentum(nodes), v_end(nodes);
     kinetic_energy = work_gravity = 0;
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -96,7 +115,7 @@ class Twin {
           point.v[j] += a[at_[k].node[i]][j] * at_[k].N[i] * dt;
           pic += v_next[at_[k].node[i]][j] * at_[k].N[i];
         }
-        point.v[j] = settings.flip * point.v[j] + (1 - settings.flip) * pic;
+        point.v[j] = phi * point.v[j] + (1 - phi) * pic;
         kinetic_energy += 0.5 * point.m * point.v[j] * point.v[j];
         for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
           momentum[at_[k].node[i]][j] += point.m * point.v[j] * at_[k].N[i];
@@ -104,77 +123,145 @@ class Twin {
       }
     }
     for (std::size_t n = 0; n < nodes; ++n) {
-      if (m[n] < least_mass_) continue;
-      for (int j = 0; j < Dim; ++j) v_end[n][j] = momentum[n][j] / m[n];
-      constrain_velocity<Dim>(body_.conditions, static_cast<int>(n), held[n], v_end[n]);
+      if (m_[n] < least_mass_) continue;
+      for (int j = 0; j < Dim; ++j) v_end[n][j] = momentum[n][j] / m_[n];
+      constrain_velocity<Dim>(body_.conditions, static_cast<int>(n), held_[n], v_end[n]);
+    }
+    if (scheme.two_terms || scheme.affine) {
+      v_end = filtered(v_end);
+      for (std::size_t n = 0; n < nodes; ++n)
+        constrain_velocity<Dim>(body_.conditions, static_cast<int>(n), held_[n], v_end[n]);
     }
     // Steps 6 to 11 (eqs 9–19).
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      Point& point = points[k];
-      double L[3][3] = {};
-      for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
-        const auto& v_i = v_end[at_[k].node[i]];
-        for (int j = 0; j < Dim; ++j) {
-          for (int l = 0; l < Dim; ++l) L[j][l] += v_i[j] * at_[k].B[i][l];
-          point.x[j] += v_i[j] * dt * at_[k].N[i];
-          work_gravity += point.m * body_.gravity[j] * v_i[j] * dt * at_[k].N[i];
-        }
-        if (body_.mesh->axisymmetric) L[2][2] += v_i[0] * at_[k].B[i][2];
-      }
-      update_stress(point.state, L, dt, settings.integration);
-      point.Omega *= stretch(L, dt);
-      point.element = element_of(point);
-    }
+    for (std::size_t k = 0; k < points.size(); ++k) strain_and_move(k, v_end, dt, settings);
   }
 
  private:
   /// A point's local nodes with N_i and B̂_i, whose third component is N_i / r in a body of revolution, and the weight w
-  /// of its volume.
+  /// of its volume; and the mean gradients of its element where the volume strain is their mean.
   struct AtPoint {
     std::vector<int> node;
     std::vector<double> N;
-    std::vector<Vec<3>> B;
+    std::vector<Vec<3>> B, B_own;  ///< corrected, and as the functions have it
     double w = 1;
+    std::map<int, Vec<3>> mean;
   };
 
+  int mean_directions() const { return body_.mesh->axisymmetric ? 3 : Dim; }
+
+  /// Of σ*, tension positive.
   static double stress(const Point& point, int j, int k) {
     static constexpr int shear[3][3] = {{0, 3, 5}, {3, 0, 4}, {5, 4, 0}};
-    return j == k ? -point.state.sigma[j] : -point.state.sigma[shear[j][k]] / std::sqrt(2.0);
+    return j == k ? -point.ahead[j] : -point.ahead[shear[j][k]] / std::sqrt(2.0);
+  }
+  double mean_stress(const Point& point) const {
+    double sum = 0;
+    for (int j = 0; j < mean_directions(); ++j) sum += stress(point, j, j);
+    return sum / mean_directions();
   }
 
-  static double stretch(const double (&L)[3][3], double dt) {
-    double f[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    for (int j = 0; j < 3; ++j) {
-      for (int k = 0; k < 3; ++k) f[j][k] += L[j][k] * dt;
+  /// P w = 2 w − m⁻¹ M w in the components that nothing holds, of what is there.
+  std::vector<Vec<Dim>> filtered(const std::vector<Vec<Dim>>& w) const {
+    std::vector<Vec<Dim>> M_w(w.size()), result = w;
+    const auto free = [&](int n, int j) { return (held_[n] >> j & 1u) == 0; };
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const auto& at = at_[k];
+      for (int j = 0; j < Dim; ++j) {
+        double here = 0;
+        for (std::size_t i = 0; i < at.node.size(); ++i) here += free(at.node[i], j) ? at.N[i] * w[at.node[i]][j] : 0;
+        for (std::size_t i = 0; i < at.node.size(); ++i) M_w[at.node[i]][j] += points[k].m * at.N[i] * here;
+      }
     }
-    double det = 0;
-    for (int k = 0; k < 3; ++k) {
-      det += f[0][k] * (f[1][(k + 1) % 3] * f[2][(k + 2) % 3] - f[1][(k + 2) % 3] * f[2][(k + 1) % 3]);
+    for (std::size_t n = 0; n < w.size(); ++n) {
+      for (int j = 0; j < Dim; ++j) {
+        if (m_[n] >= least_mass_ && free(static_cast<int>(n), j)) result[n][j] = 2 * w[n][j] - M_w[n][j] / m_[n];
+      }
     }
-    return det;
+    return result;
   }
 
-  void update_stress(State& s, const double (&L)[3][3], double dt, const IntegrationSettings& settings) const {
-    Sym<double, N> deps = Sym<double, N>::zero();
-    Spin<double, N> spin;
-    for (int j = 0; j < 3; ++j) deps[j] = -L[j][j] * dt;
-    const int pairs[3][2] = {{0, 1}, {1, 2}, {2, 0}};
-    for (int c = 0; c < (Dim == 2 ? 1 : 3); ++c) {
-      const auto [j, k] = pairs[c];
-      deps[3 + c] = -std::sqrt(2.0) * 0.5 * (L[j][k] + L[k][j]) * dt;
-      spin.w[c] = 0.5 * (L[j][k] - L[k][j]) * dt;
+  /// Of a node for the points of element e: one without mass has the mean of the element's others.
+  Vec<Dim> velocity_of(int n, int e, const std::vector<Vec<Dim>>& v, const Scheme& scheme) const {
+    if (m_[n] >= least_mass_ || !scheme.mends_massless) return v[n];
+    Vec<Dim> mean{};
+    int count = 0;
+    for (const int other : body_.mesh->element_nodes(e)) {
+      if (m_[other] < least_mass_) continue;
+      ++count;
+      for (int j = 0; j < Dim; ++j) mean[j] += v[other][j];
     }
-    rotate(s, Rotation<double, N>(spin));
-    const Increment<double, N> increment{deps, dt};
-    const auto whole = attempt<ModifiedEuler>(model_, s, increment, settings.tolerance);
-    if (whole.notes.sound && whole.error <= settings.tolerance) {
-      s = whole.state;
-    } else {
-      integrate<ModifiedEuler>(model_, s, increment, settings, 0.5);
-    }
+    for (double& x : mean) x /= std::max(count, 1);
+    return mean;
   }
 
-  int element_of(const Point& point) const {
+  void strain_and_move(std::size_t k, const std::vector<Vec<Dim>>& v, double dt, const StepSettings& settings) {
+    Point& point = points[k];
+    Matrix L{};  // L dt
+    double mean = 0;
+    for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
+      const Vec<Dim> v_i = velocity_of(at_[k].node[i], point.element, v, settings.scheme);
+      for (int j = 0; j < Dim; ++j) {
+        for (int l = 0; l < Dim; ++l) L[j][l] += v_i[j] * at_[k].B[i][l] * dt;
+        point.x[j] += v_i[j] * dt * at_[k].N[i];
+        work_gravity += point.m * body_.gravity[j] * v_i[j] * dt * at_[k].N[i];
+      }
+      if (body_.mesh->axisymmetric) L[2][2] += v_i[0] * at_[k].B[i][2] * dt;
+    }
+    if (settings.scheme.affine) {
+      for (auto& row : point.C) row.fill(0);
+      for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
+        for (int j = 0; j < Dim; ++j) {
+          for (int l = 0; l < Dim; ++l)
+            point.C[j][l] += velocity_of(at_[k].node[i], point.element, v, settings.scheme)[j] * at_[k].B_own[i][l];
+        }
+      }
+    }
+    for (const auto& [n, B] : at_[k].mean) {
+      for (int j = 0; j < Dim; ++j) mean += v[n][j] * B[j] * dt;
+      if (body_.mesh->axisymmetric) mean += v[n][0] * B[2] * dt;
+    }
+    if (!at_[k].mean.empty()) {
+      const double more = (mean - L[0][0] - L[1][1] - L[2][2]) / mean_directions();
+      for (int j = 0; j < mean_directions(); ++j) L[j][j] += more;
+    }
+    const auto turned = update_stress<N>(model_, point.state, {L, settings.scheme.middle}, dt, settings.integration);
+    const auto waves = scheme::waves(settings.scheme, is_elastic(body_.blocks[0].model));
+    const double h = body_.mesh->size[point.element], modulus = model_.p_wave_modulus(point.state);
+    point.Omega *= determinant(one_and(1, L));
+    const double per_mass = std::max(1.0, at_[k].w) * point.Omega / point.m;
+    const double beta = waves.time > 0 ? waves.time : waves.share * h / std::sqrt(modulus * per_mass);
+    point.ahead = point.state.sigma;
+    for (int c = 0; c < N && beta > 0; ++c) point.ahead[c] += beta / dt * (point.state.sigma[c] - turned[c]);
+    point.element = element_of(point, settings.scheme.lateness);
+  }
+
+  /// Does a point linger in its element, late?
+  bool lingers(const Point& point, double lateness) const {
+    const auto& mesh = *body_.mesh;
+    if (lateness == 0 || (mesh.grid && mesh.grid->functions == GridFunctions::gimp)) return false;
+    double least = 1e300, most = 0;
+    for (const int n : mesh.element_nodes(point.element)) {
+      least = std::min(least, m_[n]);
+      most = std::max(most, m_[n]);
+    }
+    if (least < 0.1 * most) return false;
+    // From the point straight into the element a way of the lateness leads to where it is inside, and the other way
+    // outside the mesh nothing is held: these tests keep their soil off the sides of the mesh.
+    if (mesh.grid) {
+      const auto at = mesh.grid->cell(point.element);
+      for (int j = 0; j < Dim; ++j) {
+        const double s = (point.x[j] - mesh.grid->origin[j]) / mesh.grid->spacing[j] - at[j];
+        if (s < -lateness || s > 1 + lateness) return false;
+      }
+      return true;
+    }
+    return with_shape<Dim>(mesh.types[point.element], [&]<class Shape>(Shape) {
+      const auto xi = Shape::local_coordinates(node_positions<Shape>(mesh, point.element), point.x);
+      return Shape::beyond(xi) <= lateness;
+    });
+  }
+
+  int element_of(const Point& point, double lateness) const {
     const auto& mesh = *body_.mesh;
     const auto holds = [&](int e) {
       if (mesh.grid) return grid_holds(*mesh.grid, e, point.x);
@@ -183,7 +270,7 @@ class Twin {
                body_.locator.tolerance();
       });
     };
-    if (holds(point.element)) return point.element;
+    if (holds(point.element) || lingers(point, lateness)) return point.element;
     for (int e = 0; e < mesh.element_count(); ++e) {
       if (holds(e)) return e;
     }
@@ -223,7 +310,7 @@ class Twin {
     return B;
   }
 
-  void find_shapes(bool corrected) {
+  void find_shapes(const StepSettings& settings) {
     const auto& mesh = *body_.mesh;
     at_.assign(points.size(), {});
     std::vector<std::vector<std::size_t>> in(mesh.types.size());
@@ -240,15 +327,18 @@ class Twin {
         std::array<Vec<Dim>, Shape::nodes> B;
         gradients<Shape>(x_i, Shape::local_coordinates(x_i, points[k].x), N_i, B);
         const auto nodes = mesh.element_nodes(e);
-        at_[k] = {{nodes.begin(), nodes.end()}, {N_i.begin(), N_i.end()}, {}};
+        at_[k].node.assign(nodes.begin(), nodes.end());
+        at_[k].N.assign(N_i.begin(), N_i.end());
         for (int i = 0; i < Shape::nodes; ++i) at_[k].B.push_back(with_hoop(B[i], N_i[i], points[k].x));
       });
     }
-    if (!corrected || (mesh.grid && mesh.grid->functions == GridFunctions::gimp)) return;
+    for (auto& at : at_) at.B_own = at.B;
+    if (settings.quadrature != Quadrature::corrected || (mesh.grid && mesh.grid->functions == GridFunctions::gimp))
+      return;
     for (int e = 0; e < mesh.element_count(); ++e) {
       bool inside = !in[e].empty();
       for (const int other : mesh.elements_around(e)) inside = inside && !in[other].empty();
-      if (inside) correct(e, in[e]);
+      if (inside && correct(e, in[e]) && settings.scheme.mean_dilatation && !is_simplex(e)) find_means(in[e]);
     }
   }
 
@@ -310,8 +400,25 @@ class Twin {
     }
   }
 
+  bool is_simplex(int e) const {
+    return !body_.mesh->grid && body_.mesh->element_nodes(e).size() == static_cast<std::size_t>(Dim + 1);
+  }
+
+  /// B̄_i = Σ Ω_p B̂_i(x_p) / Σ Ω_p over the points of an element.
+  void find_means(const std::vector<std::size_t>& in) {
+    std::map<int, Vec<3>> mean;
+    double filled = 0;
+    for (const auto k : in) filled += points[k].Omega;
+    for (const auto k : in) {
+      for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
+        for (int j = 0; j < 3; ++j) mean[at_[k].node[i]][j] += points[k].Omega * at_[k].B[i][j] / filled;
+      }
+    }
+    for (const auto k : in) at_[k].mean = mean;
+  }
+
   /// Corrected quadrature inside the soil, as in docs/theory.md. Numbers of nodes are those of the mesh.
-  void correct(int e, const std::vector<std::size_t>& in) {
+  bool correct(int e, const std::vector<std::size_t>& in) {
     double V = 0, filled = 0;
     std::map<int, Vec<3>> shift;  // s_i
     for_quadrature_points(e, [&](const auto& B, const auto& nodes, double dV) {
@@ -321,7 +428,7 @@ class Twin {
       }
     });
     for (const auto k : in) filled += points[k].Omega;
-    if (!(filled > 0.5 * V && filled < 2 * V)) return;
+    if (!(filled > 0.5 * V && filled < 2 * V)) return false;
     for (auto& [n, s] : shift) {
       for (double& component : s) component /= V;
     }
@@ -342,11 +449,14 @@ class Twin {
         for (int j = 0; j < 3; ++j) at_[k].B[known][j] += s[j];
       }
     }
+    return true;
   }
 
   const Body<Dim>& body_;
   const Model& model_;
   double least_mass_ = 1e300;
+  std::vector<double> m_;           ///< of the nodes, in this step
+  std::vector<std::uint8_t> held_;  ///< of the nodes, in this step
   std::vector<AtPoint> at_;
 };
 

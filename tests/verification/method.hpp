@@ -29,12 +29,12 @@ inline constexpr auto label_of = [](const auto& its) {
 struct Method {
   GridFunctions shape = GridFunctions::linear;
   Quadrature quadrature = Quadrature::corrected;
-  double flip = 1, damping = 0;
+  double flip = 1, damping = 0;  ///< flip of the report's scheme
 
   StepSettings settings() const {
     StepSettings s;
     s.quadrature = quadrature;
-    s.flip = flip;
+    s.scheme = report_scheme(flip);
     s.damping = damping;
     return s;
   }

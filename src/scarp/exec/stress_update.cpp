@@ -22,19 +22,22 @@ class Update {
 
  public:
   Update(const Model& model, Block<Dim>& block, const Strains<Dim>& strains, double dt,
-         const IntegrationSettings& settings, StressBooks& books)
+         const IntegrationSettings& settings, const WaveSettings& waves, StressBooks& books)
       : model_(model),
         block_(block),
         points_(block.points),
         strains_(strains),
         dt_(dt),
         settings_(settings),
+        waves_(waves),
+        damped_(waves.damped()),
         books_(books) {}
 
   void operator()(PointRange range, int at) {
     for_each_batch<Batch>(range, [&](const Lanes<Batch>& p, int first) { batch(p, at + first); });
     finish_stragglers();
     books_.work += xsimd::hadd(work_);
+    books_.damping += xsimd::hadd(damping_);
     std::array<double, W> rate2;
     fastest2_.store_unaligned(rate2.data());
     const double most = *std::max_element(rate2.begin(), rate2.end());
@@ -63,6 +66,8 @@ class Update {
     p.store(p.load(points_.eps_q) + Batch(0.81649658092772603273) * norm(deviator(deps)), points_.eps_q);
 
     const unsigned present = first_bits(p.count()), done = bits_of(good) & present;
+    Batch damping(0.0);
+    if (damped_) damping = look_ahead(p, old.sigma, turned.sigma, trial, good, deps, at);
     const Batch work = increment(strains_.volume, at) * Batch(0.5) * dot(turned.sigma + trial.state.sigma, deps);
     const Batch modulus = model_.p_wave_modulus(trial.state);
     const auto stiff = modulus > Batch(0.0);
@@ -80,6 +85,7 @@ class Update {
         store(p);
       }
       work_ += work;
+      damping_ += damping;
       fastest2_ = max(fastest2_, rate2);
       books_.substeps += W;
       books_.most_substeps = std::max(books_.most_substeps, 1);
@@ -90,6 +96,7 @@ class Update {
       if (done >> l & 1u) {
         const auto lane = static_cast<std::size_t>(l);
         books_.work += work.get(lane);
+        books_.damping += damping.get(lane);
         record(p.point(l), 1,
                {trial.notes.corrected.get(lane), trial.notes.on_floor.get(lane), trial.notes.separated.get(lane), true},
                IntegrationEnd::done);
@@ -98,6 +105,34 @@ class Update {
         straggler(p.point(l), at + l);
       }
     }
+  }
+
+  /// σ* of the points whose trial is `good`, to its columns; returns what that damps. A separated point is felt as it
+  /// is.
+  template <class Lanes>
+  [[gnu::always_inline]] Batch look_ahead(const Lanes& p, const Sym<Batch, N>& old, const Sym<Batch, N>& turned,
+                                          const Trial<State<Batch>, Batch>& trial, const Mask<Batch>& good,
+                                          const Sym<Batch, N>& deps, int at) {
+    const auto& now = trial.state;
+    const Batch share = select(trial.notes.separated, Batch(0.0),
+                               share_ahead(model_.p_wave_modulus(now), increment(strains_.per_mass, at)));
+    Batch rate(0.0);
+    for (int c = 0; c < N; ++c) {
+      auto& ahead = points_.sigma_ahead[c];
+      if (ahead.empty()) continue;
+      const Batch change = share * (now.sigma[c] - turned[c]), before = p.load(ahead);
+      rate = fma(change - before - old[c], deps[c], rate);
+      p.store(select(good, -(now.sigma[c] + change), before), ahead);
+    }
+    return increment(strains_.volume, at) * Batch(0.5) * rate;
+  }
+
+  /// β/dt, from c²/h² = modulus · per_mass.
+  template <class T>
+  T share_ahead(const T& modulus, const T& per_mass) const {
+    if (waves_.time > 0) return T(waves_.time / dt_);
+    const T rate2 = modulus * per_mass;
+    return select(rate2 > T(0.0), T(waves_.share / dt_) / sqrt(rate2), T(0.0));
   }
 
   /// A point whose increment is too large for one substep.
@@ -114,12 +149,29 @@ class Update {
           const auto [p, at] = stragglers_[i];
           const auto start = turned_point(stragglers_[i]);  // the columns still hold the start
           books_.work += strains_.volume[at] * 0.5 * dot(start.state.sigma + end.sigma, start.whole.deps);
+          if (damped_) look_ahead(p, at, start, end, report);
           store_state(end, p);
           record(p, report.substeps, report.notes, report.end);
           bound_time_step(model_.p_wave_modulus(end), at);
         },
         settings_, 0.5);
     straggler_count_ = 0;
+  }
+
+  /// The same for one point, whose columns still hold the start.
+  void look_ahead(int p, int at, const Task<Model, N>& start, const State<double>& end,
+                  const IntegrationReport& report) {
+    const bool follows = report.end == IntegrationEnd::done && !report.notes.separated;
+    const double share = follows ? share_ahead(model_.p_wave_modulus(end), strains_.per_mass[at]) : 0.0;
+    double rate = 0;
+    for (int c = 0; c < N; ++c) {
+      auto& ahead = points_.sigma_ahead[c];
+      if (ahead.empty()) continue;
+      const double change = share * (end.sigma[c] - start.state.sigma[c]);
+      rate += (change - ahead[p] + points_.sigma[c][p]) * start.whole.deps[c];
+      ahead[p] = -(end.sigma[c] + change);
+    }
+    books_.damping += strains_.volume[at] * 0.5 * rate;
   }
 
   /// The state of a point, turned with the body, and its increment.
@@ -150,10 +202,11 @@ class Update {
     }
   }
 
-  /// The square of (c + |v|) / h: its inverse is the time that a compression wave and the point itself need to cross
-  /// the point's element.
+  /// The square of c/(k h) + |v|/h: its inverse is the time that a compression wave (with the factor k of the scheme)
+  /// and the point itself need to cross the point's element.
   Batch crossing_rate2(const Batch& modulus, int at) const {
-    const Batch c2 = modulus * increment(strains_.per_mass, at), v2 = increment(strains_.speed2, at);
+    const Batch rate2 = modulus * increment(strains_.per_mass, at), c2 = rate2 * waves_.per_limit2(rate2),
+                v2 = increment(strains_.speed2, at);
     return c2 + v2 + Batch(2.0) * sqrt(c2 * v2);
   }
   void bound_time_step(double modulus, int at) {
@@ -161,7 +214,8 @@ class Update {
       ++books_.no_stiffness;
       return;
     }
-    const double rate = std::sqrt(modulus * strains_.per_mass[at]) + std::sqrt(strains_.speed2[at]);
+    const double rate2 = modulus * strains_.per_mass[at];
+    const double rate = std::sqrt(rate2 * waves_.per_limit2(rate2)) + std::sqrt(strains_.speed2[at]);
     books_.critical_dt = std::min(books_.critical_dt, 1 / rate);
   }
 
@@ -238,16 +292,19 @@ class Update {
   const Strains<Dim>& strains_;
   double dt_;
   const IntegrationSettings& settings_;
+  const WaveSettings& waves_;
+  bool damped_;
   StressBooks& books_;
   std::array<Straggler, 64> stragglers_;
   int straggler_count_ = 0;
-  Batch work_ = Batch(0.0), fastest2_ = Batch(0.0);
+  Batch work_ = Batch(0.0), damping_ = Batch(0.0), fastest2_ = Batch(0.0);
 };
 
 }  // namespace
 
 StressBooks& StressBooks::operator+=(const StressBooks& other) {
   work += other.work;
+  damping += other.damping;
   critical_dt = std::min(critical_dt, other.critical_dt);
   substeps += other.substeps;
   most_substeps = std::max(most_substeps, other.most_substeps);
@@ -265,15 +322,17 @@ StressBooks& StressBooks::operator+=(const StressBooks& other) {
 
 template <int Dim>
 void update_stresses(Block<Dim>& block, PointRange range, const Strains<Dim>& strains, int at, double dt,
-                     const IntegrationSettings& settings, StressBooks& books) {
-  std::visit([&]<class Model>(
-                 const Model& model) { Update<Model, Dim>(model, block, strains, dt, settings, books)(range, at); },
-             block.model);
+                     const IntegrationSettings& settings, const WaveSettings& waves, StressBooks& books) {
+  std::visit(
+      [&]<class Model>(const Model& model) {
+        Update<Model, Dim>(model, block, strains, dt, settings, waves, books)(range, at);
+      },
+      block.model);
 }
 
 template <int Dim>
 double critical_time_step(const Block<Dim>& block, const std::vector<double>& element_size,
-                          const ActiveElements& active, const Column& weight) {
+                          const ActiveElements& active, const Column& weight, const WaveSettings& waves) {
   const auto& points = block.points;
   double dt = std::numeric_limits<double>::infinity();
   for (int i = 0; i < block.size(); ++i) {
@@ -284,19 +343,20 @@ double critical_time_step(const Block<Dim>& block, const std::vector<double>& el
       for (int j = 0; j < Dim; ++j) v2 += points.v[j][i] * points.v[j][i];
       const int e = points.element[i];
       const double per_mass = std::max(1.0, weight[active.slot[e]]) * points.volume[i] / points.mass[i];
-      dt = std::min(dt, element_size[e] / (std::sqrt(modulus * per_mass) + std::sqrt(v2)));
+      const double h = element_size[e], c2 = modulus * per_mass;
+      dt = std::min(dt, h / (std::sqrt(c2 * waves.per_limit2(c2 / (h * h))) + std::sqrt(v2)));
     });
   }
   return dt;
 }
 
 template void update_stresses<2>(Block<2>&, PointRange, const Strains<2>&, int, double, const IntegrationSettings&,
-                                 StressBooks&);
+                                 const WaveSettings&, StressBooks&);
 template void update_stresses<3>(Block<3>&, PointRange, const Strains<3>&, int, double, const IntegrationSettings&,
-                                 StressBooks&);
-template double critical_time_step<2>(const Block<2>&, const std::vector<double>&, const ActiveElements&,
-                                      const Column&);
-template double critical_time_step<3>(const Block<3>&, const std::vector<double>&, const ActiveElements&,
-                                      const Column&);
+                                 const WaveSettings&, StressBooks&);
+template double critical_time_step<2>(const Block<2>&, const std::vector<double>&, const ActiveElements&, const Column&,
+                                      const WaveSettings&);
+template double critical_time_step<3>(const Block<3>&, const std::vector<double>&, const ActiveElements&, const Column&,
+                                      const WaveSettings&);
 
 }  // namespace scarp::exec

@@ -14,10 +14,35 @@
 
 namespace scarp::exec {
 
+/// What is done about waves: the damping of the rate of stress, β = ξ h/c or as given, σ* = σ + (β/dt) (σ − Q σ^t Qᵀ)
+/// being what nodes feel; and the limit of the time step, for which the highest ω² is that of a lumped mass (4 c²/h²)
+/// times `highest2`. Waves of ω are stable where ω² dt² + 2 ω² β dt ≤ 4, so that
+///     dt ≤ k h/c,   k = √(1/highest2 + ξ²) − ξ.
+struct WaveSettings {
+  double share = 0, time = 0;  ///< ξ; β [s], which goes before
+  double highest2 = 1;
+
+  bool damped() const { return share > 0 || time > 0; }
+  /// 1/k² where c²/h² = rate2 [1/s²].
+  template <class T>
+  T per_limit2(const T& rate2) const {
+    if (time > 0) return limit2<T>(T(time) * sqrt(rate2));
+    return limit2<T>(T(share));
+  }
+
+ private:
+  template <class T>
+  T limit2(const T& xi) const {
+    const T k = sqrt(T(1 / highest2) + xi * xi) - xi;
+    return T(1.0) / (k * k);
+  }
+};
+
 /// What a stress update did, summed over points in a fixed order.
 struct StressBooks {
-  double work = 0;  ///< Σ Ω ½ (σ^t + σ^{t+dt}) : dε, with σ^t turned with the body
-  double critical_dt = std::numeric_limits<double>::infinity();  ///< least h / (c + |v|)
+  double damping = 0;  ///< Σ Ω ½ (σ* − σ at t, and at t + dt) : dε
+  double work = 0;     ///< Σ Ω ½ (σ^t + σ^{t+dt}) : dε, with σ^t turned with the body
+  double critical_dt = std::numeric_limits<double>::infinity();  ///< least 1 / (c/(k h) + |v|/h)
   std::int64_t substeps = 0;
   int most_substeps = 0;
   std::int64_t failures = 0, corrected = 0, separated = 0, on_floor = 0, no_stiffness = 0;
@@ -31,14 +56,14 @@ struct StressBooks {
 /// increments in `strains` from place `at` on.
 template <int Dim>
 void update_stresses(Block<Dim>& block, PointRange range, const Strains<Dim>& strains, int at, double dt,
-                     const IntegrationSettings& settings, StressBooks& books);
+                     const IntegrationSettings& settings, const WaveSettings& waves, StressBooks& books);
 
-/// The least h / (c + |v|) over the points of a block, with c the compression wave speed of their present stiffness;
-/// infinite where no point has stiffness. `weight` is that of the points in the quadrature of the active element in
-/// each slot.
+/// The least 1 / (c/(k h) + |v|/h) over the points of a block, with c the compression wave speed of their present
+/// stiffness; infinite where no point has stiffness. `weight` is that of the points in the quadrature of the active
+/// element in each slot.
 template <int Dim>
 double critical_time_step(const Block<Dim>& block, const std::vector<double>& element_size,
-                          const ActiveElements& active, const Column& weight);
+                          const ActiveElements& active, const Column& weight, const WaveSettings& waves);
 
 /// Calls f(model, state of point i with N components, compression positive) for point i of a block.
 template <int Dim, class F>

@@ -123,10 +123,48 @@ void check_shape(const CaseOf<Dim>& input) {
 
 }  // namespace
 
+namespace {
+
+/// The scheme and its constants. A constant that the scheme has no use for is refused; but flip, which cases from
+/// before there was a choice have, is no more than ignored (and run says so).
+void read_scheme(Table& table, MethodInput& method) {
+  if (const Node* scheme = table.find("scheme")) {
+    const auto word = text_in(*scheme, "scheme");
+    if (word != "two-term" && word != "report" && word != "apic")
+      throw InputError("scheme is \"two-term\", \"report\" or \"apic\"", describe(*scheme),
+                       "leave it out for \"two-term\", whose results do not depend on the time step", scheme->position);
+    method.scheme = word == "two-term" ? SchemeName::two_term : word == "apic" ? SchemeName::apic : SchemeName::report;
+  }
+  const auto only_with = [&](const char* key, bool right, const char* scheme) {
+    const Node* found = table.find(key);
+    if (found && !right)
+      throw InputError(fmt::format("{} belongs to scheme = {}", key, scheme), describe(*found),
+                       fmt::format("leave it out, or choose that scheme"), found->position);
+    return found;
+  };
+  if (const Node* flip = table.find("flip")) {
+    method.flip = number_in(*flip, "flip", {0, 1});
+    if (method.scheme != SchemeName::report) method.ignored_flip = flip->position;
+  }
+  if (const Node* time = only_with("pic_time", method.scheme == SchemeName::two_term, "\"two-term\""))
+    method.pic_time = number_in(*time, "pic_time", positive);
+  const bool damped = method.scheme != SchemeName::report;
+  const Node* share = only_with("stress_damping", damped, "\"two-term\" or \"apic\"");
+  const Node* time = only_with("stress_damping_time", damped, "\"two-term\" or \"apic\"");
+  if (share && time)
+    throw InputError("the damping of stress rates is given by stress_damping or by stress_damping_time", "both",
+                     "leave one of them out", time->position);
+  if (share) method.stress_damping = number_in(*share, "stress_damping", {0, 10});
+  if (time) method.stress_damping_time = number_in(*time, "stress_damping_time", positive);
+  if (method.scheme == SchemeName::report) method.safety = 0.5;
+}
+
+}  // namespace
+
 MethodInput read_method(const Node& node) {
   Table table(node, "[method]");
   MethodInput method;
-  method.flip = table.number_or("flip", {0, 1}, method.flip);
+  read_scheme(table, method);
   if (const Node* shape = table.find("shape")) {
     method.shape = read_shape(*shape);
     method.shape_position = shape->position;

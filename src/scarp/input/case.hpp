@@ -100,7 +100,7 @@ struct StageInputOf {
   std::string name;
   double duration = 0;             ///< [s]
   double damping = 0;              ///< local (non-viscous) damping coefficient, 0 to below 1
-  std::optional<double> flip;      ///< overrides MethodInput::flip
+  std::optional<double> flip;      ///< overrides MethodInput::flip, of the report's scheme
   bool zero_displacement = false;  ///< set displacements and eps_q to zero at the start
   bool zero_velocity = false;      ///< set velocities to zero at the start
   std::optional<RemovalInputOf<Dim>> remove;
@@ -109,13 +109,21 @@ struct StageInputOf {
 };
 using StageInput = StageInputOf<2>;
 
+/// How velocities go between points and nodes (step/scheme.hpp).
+enum class SchemeName { two_term, report, apic };
+
 /// [method]
 struct MethodInput {
-  double flip = 1.0;  ///< share of FLIP in the velocity update; 1 is the report's
+  SchemeName scheme = SchemeName::two_term;
+  double flip = 1.0;  ///< of scheme "report": share of FLIP in the velocity update; 1 is the report's
+  std::optional<Position> ignored_flip;  ///< where it is given with another scheme, which has no use for it
+  double pic_time = 0.5;  ///< of scheme "two-term": time in which PIC takes what nodes do not see [s]; infinite: never
+  std::optional<double> stress_damping;  ///< ξ, of critical at the shortest wave of an element; not set: by the law
+  double stress_damping_time = 0;        ///< β [s], in place of ξ where positive
   GridFunctions shape = GridFunctions::linear;
   Position shape_position;
   bool corrected_quadrature = true;  ///< inside the soil; false: eq. 4 of the report as printed
-  double safety = 0.5;               ///< of the critical time step
+  double safety = 0.8;               ///< of the critical time step; 0.5 unless given with scheme "report"
   double tolerance = 1e-4;           ///< of the stress integration, relative
   bool remove_leaving = false;       ///< a point that leaves the mesh is removed and counted, instead of an error
   int largest_failures = 0;          ///< failed stress updates before the run stops

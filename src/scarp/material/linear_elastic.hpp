@@ -11,6 +11,8 @@ namespace scarp {
 
 class LinearElastic {
  public:
+  static constexpr bool elastic = true;  ///< no strain is kept: see is_elastic() in models.hpp
+
   struct Parameters {
     double E;   ///< Young's modulus [stress]
     double nu;  ///< Poisson's ratio

@@ -18,6 +18,8 @@ namespace scarp {
 
 class NeoHookean {
  public:
+  static constexpr bool elastic = true;  ///< no strain is kept: see is_elastic() in models.hpp
+
   struct Parameters {
     double E;   ///< Young's modulus of the natural state [stress]
     double nu;  ///< Poisson's ratio of the natural state

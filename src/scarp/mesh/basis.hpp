@@ -4,7 +4,9 @@
 //   B::Cell(mesh, e)         what it knows of element e, made once per element and sweep, with
 //     local(x)               local coordinates of x (where the basis does not store them); or
 //     follow(x, local)       local coordinates of x from those of a point nearby; where that worked
-//     inside(local, tol)     is that in the element, or beyond it by no more than tol parts of its height?
+//     inside(local, tol)     is that in the element, or beyond it by no more than tol parts of its height? tol: one
+//                            number, or one for each of its B::sides: opposite node 0, 1, ... of a simplex; the lower
+//                            and the upper side along each axis in turn of others (mesh/shapes.hpp: side_of)
 //     shape(local, N)        N_i
 //     gradients(local, N, B) N_i and B_i = dN_i/dx
 //     integrals(V, g)        the element's volume V and g_i = ∫ B_i dV over it (where the basis is corrected)
@@ -68,7 +70,7 @@ namespace detail {
 /// Triangles and tetrahedra: B_i are constant, and local coordinates linear in x.
 template <int Dim>
 struct Simplex {
-  static constexpr int dim = Dim, nodes = Dim + 1;
+  static constexpr int dim = Dim, nodes = Dim + 1, sides = Dim + 1;
   static constexpr bool stores_local = false, has_domains = false, corrects = true;
 
   class Cell {
@@ -109,6 +111,17 @@ struct Simplex {
         yes = yes && (xi[d] >= T(-tolerance));
       }
       return yes && (sum <= T(1 + tolerance));
+    }
+
+    template <class T>
+    Mask<T> inside(const std::array<T, Dim>& xi, const std::array<double, sides>& tolerance) const {
+      T sum = xi[0];
+      Mask<T> yes = xi[0] >= T(-tolerance[1]);
+      for (int d = 1; d < Dim; ++d) {
+        sum = sum + xi[d];
+        yes = yes && (xi[d] >= T(-tolerance[d + 1]));
+      }
+      return yes && (sum <= T(1 + tolerance[0]));
     }
 
     template <class T>
@@ -160,7 +173,7 @@ struct Simplex {
 /// Quadrilaterals and hexahedra of any shape. Points store their local coordinates, from −1 to 1.
 template <int Dim>
 struct Box {
-  static constexpr int dim = Dim, nodes = 1 << Dim;
+  static constexpr int dim = Dim, nodes = 1 << Dim, sides = 2 * Dim;
   static constexpr bool stores_local = true, has_domains = false, corrects = true;
 
   class Cell {
@@ -203,6 +216,11 @@ struct Box {
       Mask<T> yes = abs(xi[0]) <= T(1 + 2 * tolerance);
       for (int d = 1; d < Dim; ++d) yes = yes && (abs(xi[d]) <= T(1 + 2 * tolerance));
       return yes;
+    }
+
+    template <class T>
+    Mask<T> inside(const std::array<T, Dim>& xi, const std::array<double, sides>& tolerance) const {
+      return in_unit_box<Dim>(unit(xi), tolerance);
     }
 
     template <class T>

@@ -18,6 +18,14 @@ inline Mask<T> in_unit_box(const std::array<T, Dim>& s, double tolerance) {
   return yes;
 }
 
+/// The same with a tolerance for each side: the lower and the upper one along each axis in turn.
+template <int Dim, class T>
+inline Mask<T> in_unit_box(const std::array<T, Dim>& s, const std::array<double, 2 * Dim>& tolerance) {
+  Mask<T> yes = (s[0] >= T(-tolerance[0])) && (s[0] <= T(1 + tolerance[1]));
+  for (int d = 1; d < Dim; ++d) yes = yes && (s[d] >= T(-tolerance[2 * d])) && (s[d] <= T(1 + tolerance[2 * d + 1]));
+  return yes;
+}
+
 constexpr int power(int base, int exponent) {
   return exponent == 0 ? 1 : base * power(base, exponent - 1);
 }
@@ -98,7 +106,7 @@ struct GridCell {
 /// everywhere, so that they follow straight from x.
 template <int Dim>
 struct GridLinear {
-  static constexpr int dim = Dim, nodes = 1 << Dim;
+  static constexpr int dim = Dim, nodes = 1 << Dim, sides = 2 * Dim;
   static constexpr bool stores_local = false, has_domains = false, corrects = true;
 
   class Cell {
@@ -116,7 +124,7 @@ struct GridLinear {
     }
 
     template <class T>
-    Mask<T> inside(const std::array<T, Dim>& s, double tolerance) const {
+    Mask<T> inside(const std::array<T, Dim>& s, const auto& tolerance) const {
       return detail::in_unit_box<Dim>(s, tolerance);
     }
 
@@ -164,7 +172,7 @@ struct GridLinear {
 /// Splines, 1978, ch. X). Local nodes: x fastest.
 template <int Dim>
 struct GridSpline {
-  static constexpr int dim = Dim, each = 3, nodes = detail::power(each, Dim);
+  static constexpr int dim = Dim, each = 3, nodes = detail::power(each, Dim), sides = 2 * Dim;
   static constexpr bool stores_local = false, has_domains = false, corrects = true;
 
   class Cell {
@@ -182,7 +190,7 @@ struct GridSpline {
     }
 
     template <class T>
-    Mask<T> inside(const std::array<T, Dim>& s, double tolerance) const {
+    Mask<T> inside(const std::array<T, Dim>& s, const auto& tolerance) const {
       return detail::in_unit_box<Dim>(s, tolerance);
     }
 
@@ -267,7 +275,7 @@ struct GridSpline {
 /// fastest; one beyond the grid is the line on its side, with S = 0.
 template <int Dim>
 struct GridGimp {
-  static constexpr int dim = Dim, each = 4, nodes = detail::power(each, Dim);
+  static constexpr int dim = Dim, each = 4, nodes = detail::power(each, Dim), sides = 2 * Dim;
   // Domains overlap cells, so that those of a cell's points are no partition of it.
   static constexpr bool stores_local = false, has_domains = true, corrects = false;
 
@@ -304,7 +312,7 @@ struct GridGimp {
     }
 
     template <class T>
-    Mask<T> inside(const std::array<T, Dim>& s, double tolerance) const {
+    Mask<T> inside(const std::array<T, Dim>& s, const auto& tolerance) const {
       return detail::in_unit_box<Dim>(s, tolerance);
     }
 

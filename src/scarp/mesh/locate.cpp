@@ -82,7 +82,44 @@ Locator<Dim>::Locator(const Mesh<Dim>& mesh) : mesh_(&mesh) {
     for (int k = 0; k < Dim; ++k) inverse_spacing_[k] = 1 / mesh.grid->spacing[k];
   } else {
     build_bins();
+    find_outer_sides();
   }
+}
+
+/// A side of which no other element has a Dim of its nodes in a side of its own. (A quadrilateral face may be shared by two
+/// tetrahedra.)
+template <int Dim>
+void Locator<Dim>::find_outer_sides() {
+  struct Corner {
+    std::array<int, Dim> nodes;  // ascending
+    int element, side;
+  };
+  std::vector<Corner> all;
+  for (int e = 0; e < mesh_->element_count(); ++e) {
+    const auto node = mesh_->element_nodes(e);
+    with_shape<Dim>(mesh_->types[e], [&]<class Shape>(Shape) {
+      for (const auto& local : Shape::sides) {
+        const int side = side_of<Shape>(local), n = static_cast<int>(local.size());
+        for (int first = 0; first < (n == Dim ? 1 : n); ++first) {
+          Corner corner{{}, e, side};
+          for (int i = 0; i < Dim; ++i) corner.nodes[i] = node[local[(first + i) % n]];
+          std::sort(corner.nodes.begin(), corner.nodes.end());
+          all.push_back(corner);
+        }
+      }
+    });
+  }
+  std::sort(all.begin(), all.end(), [](const Corner& a, const Corner& b) { return a.nodes < b.nodes; });
+  std::vector<std::uint8_t> inner(mesh_->types.size(), 0);
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+    if (all[i].nodes != all[i + 1].nodes || all[i].element == all[i + 1].element) continue;
+    for (const auto& corner : {all[i], all[i + 1]}) {
+      auto& sides = inner[corner.element];
+      sides = static_cast<std::uint8_t>(sides | 1u << corner.side);
+    }
+  }
+  outer_.resize(inner.size());
+  for (std::size_t e = 0; e < inner.size(); ++e) outer_[e] = static_cast<std::uint8_t>(~inner[e]);
 }
 
 template <int Dim>
@@ -289,6 +326,18 @@ int Locator<Dim>::bin_index(const std::array<int, Dim>& bin) const {
   int b = 0;
   for (int k = Dim - 1; k >= 0; --k) b = b * bins_[k] + bin[k];
   return b;
+}
+
+template <int Dim>
+std::vector<int> Locator<Dim>::elements_at(const Vec<Dim>& x, int e) const {
+  Vec<Dim> xi;
+  if (!mesh_->grid && examine(e, x, xi) < -1e-4) return {e};  // a wide net, as above
+  std::vector<int> all{e};
+  for (const int other : mesh_->elements_around(e)) {
+    if (mesh_->grid ? cell_holds(other, x) : examine(other, x, xi) <= tolerance_) all.push_back(other);
+  }
+  std::sort(all.begin(), all.end());
+  return all;
 }
 
 template class Locator<2>;

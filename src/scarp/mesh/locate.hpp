@@ -88,10 +88,31 @@ class Locator {
     return find(x, -1, not_asked);
   }
 
+  /// The elements that x lies in or at the side of, ascending, where e is one of them.
+  std::vector<int> elements_at(const Vec<Dim>& x, int e) const;
+
+  /// Does the mesh end at that side of an element? Sides as a basis counts them (mesh/basis.hpp).
+  bool ends_at(int e, int side) const {
+    if (!mesh_->grid) return (outer_[e] >> side & 1u) != 0;
+    const int d = side / 2, at = mesh_->grid->cell(e)[d];
+    return side % 2 == 0 ? at == 0 : at + 1 == mesh_->grid->elements[d];
+  }
+
   /// As a part of an element's height: 1e-10, or more where the coordinates' own round-off is larger than that.
   double tolerance() const { return tolerance_; }
 
  private:
+  /// Is x in a cell of the grid, or beyond it by no more than the tolerance?
+  bool cell_holds(int e, const Vec<Dim>& x) const {
+    const auto at = mesh_->grid->cell(e);
+    bool holds = true;
+    for (int k = 0; k < Dim; ++k) {
+      const double s = (x[k] - mesh_->grid->origin[k]) * inverse_spacing_[k] - at[k];
+      holds = holds && s >= -tolerance_ && s <= 1 + tolerance_;
+    }
+    return holds;
+  }
+
   /// How far x is beyond element e's boundary (NaN when x is), and its local coordinates there.
   double examine(int e, const Vec<Dim>& x, Vec<Dim>& xi) const {
     return with_shape<Dim>(mesh_->types[e], [&]<class Shape>(Shape) {
@@ -130,6 +151,7 @@ class Locator {
   bool bin_of(const Vec<Dim>& x, std::array<int, Dim>& bin) const;
   int bin_index(const std::array<int, Dim>& bin) const;
   void build_bins();
+  void find_outer_sides();
   int choose_bins(int elements);
   template <class F>
   void for_bins_in(const Vec<Dim>& low, const Vec<Dim>& high, F&& f) const;
@@ -137,6 +159,7 @@ class Locator {
   const Mesh<Dim>* mesh_;
   double tolerance_ = 0;
   Vec<Dim> inverse_spacing_{};
+  std::vector<std::uint8_t> outer_;  ///< of each element: bit s set where the mesh ends at side s; empty in a grid
 
   // All elements by the boxes that they touch: bins of equal size over the mesh, each with its elements ascending.
   Vec<Dim> low_{}, high_{}, inverse_bin_{};

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "scarp/mesh/mesh.hpp"
+#include "scarp/mesh/multilinear.hpp"
 #include "scarp/mesh/shapes/plane.hpp"
 #include "scarp/mesh/shapes/solid.hpp"
 
@@ -115,6 +116,25 @@ requires(Dim == 2) decltype(auto) with_shape(ElementType type, F&& f) {
 template <int Dim, class F>
 requires(Dim == 3) decltype(auto) with_shape(ElementType type, F&& f) {
   return type == ElementType::T4 ? std::forward<F>(f)(T4{}) : std::forward<F>(f)(H8{});
+}
+
+/// The number of a side, given as one of Shape::sides, as bases count them: of a simplex that of the node opposite; of
+/// others 2d + 1 at the end of axis d of the local coordinates, 2d at its start.
+template <class Shape, std::size_t n>
+constexpr int side_of(const std::array<int, n>& local) {
+  if constexpr (Shape::nodes == Shape::dim + 1) {
+    int opposite = Shape::dim * (Shape::dim + 1) / 2;  // the sum of all nodes' numbers
+    for (const int i : local) opposite -= i;
+    return opposite;
+  } else {
+    for (int d = 0; d < Shape::dim; ++d) {
+      int far = 0;
+      for (const int i : local) far += detail::far_side(i, d);
+      if (far == 0) return 2 * d;
+      if (far == static_cast<int>(n)) return 2 * d + 1;
+    }
+    return -1;
+  }
 }
 
 /// Positions of the nodes of element e, which must be of this shape [m].

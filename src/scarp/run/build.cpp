@@ -233,7 +233,7 @@ Body<Dim> build_body(const input::CaseOf<Dim>& input) {
     set_initial_state(body.blocks[r], input.regions[r], overburden);
   }
   try {
-    locate_points(body);
+    locate_points(body, input.method.scheme != input::SchemeName::report);
   } catch (const InputError& error) {
     for (const auto& region : input.regions) {
       if (error.problem().find('"' + region.name + '"') == std::string::npos) continue;

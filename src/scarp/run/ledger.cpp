@@ -15,6 +15,7 @@ void Ledger<Dim>::add(double step, int points, const StepBooks<Dim>& books) {
   dissipation_damping += books.dissipation_damping;
   dissipation_friction += books.dissipation_friction;
   dissipation_pic += books.dissipation_pic;
+  dissipation_waves += books.dissipation_waves;
   removed_kinetic_energy += books.removed_energy;
   removed_mass += books.removed_mass;
   removed_points += books.removed;

@@ -19,7 +19,7 @@ struct Ledger {
   double initial_mass = 0, removed_mass = 0;
   double initial_kinetic_energy = 0, removed_kinetic_energy = 0;
   double work_gravity = 0, work_stress = 0;
-  double dissipation_damping = 0, dissipation_friction = 0, dissipation_pic = 0;
+  double dissipation_damping = 0, dissipation_friction = 0, dissipation_pic = 0, dissipation_waves = 0;
   std::array<double, phases> seconds{};  ///< of each Phase; only where asked for
   std::int64_t removed_points = 0, failures = 0, corrected = 0, substeps = 0;
 
@@ -29,7 +29,8 @@ struct Ledger {
   /// Kinetic energy that nobody accounts for: ΔE_kin + removed − (work of gravity − work of stress − dissipation).
   double energy_error() const {
     return last.kinetic_energy - initial_kinetic_energy + removed_kinetic_energy -
-           (work_gravity - work_stress - dissipation_damping - dissipation_friction - dissipation_pic);
+           (work_gravity - work_stress - dissipation_damping - dissipation_friction - dissipation_pic -
+            dissipation_waves);
   }
   /// Relative to the initial mass.
   double mass_error() const {

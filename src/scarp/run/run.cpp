@@ -12,6 +12,7 @@
 #include "scarp/exec/parallel.hpp"
 #include "scarp/run/build.hpp"
 #include "scarp/run/results.hpp"
+#include "scarp/run/scheme.hpp"
 #include "scarp/run/stage.hpp"
 
 namespace scarp::run {
@@ -148,7 +149,7 @@ std::string check_in(const input::CaseOf<Dim>& input) {
     text += fmt::format("    region \"{}\": {} points, {} {:.6g} {}{}, mass {:.6g}{}\n", block.name, block.size(),
                         area ? "area" : "volume", volume, area ? "m2" : "m3", area ? "" : share, mass, share);
   }
-  const double critical = critical_time_step(body);
+  const double critical = critical_time_step(body, scheme_of(input.method));
   const double dt = input.method.safety * critical;
   text += fmt::format("  time step: {:.3g} s at the start (critical {:.3g} s, safety {:g})\n", dt, critical,
                       input.method.safety);

@@ -8,6 +8,7 @@
 
 #include "scarp/base/error.hpp"
 #include "scarp/run/removal.hpp"
+#include "scarp/run/scheme.hpp"
 
 namespace scarp::run {
 namespace {
@@ -183,14 +184,14 @@ void run_stage(Context<Dim>& context, int index, StageRecord& record) {
   if (stage.remove) removal.emplace(*stage.remove, ledger.time);
   std::optional<RestWatch> rest;
   if (stage.rest) rest.emplace(*stage.rest, body);
-  const StepSettings settings{stage.flip.value_or(input.method.flip),
+  const StepSettings settings{scheme_of(input.method, stage.flip),
                               stage.damping,
                               input.method.corrected_quadrature ? Quadrature::corrected : Quadrature::points,
                               {input.method.tolerance, 1e-5},
                               input.method.remove_leaving,
                               profile};
   Clock frames(ledger.time, input.output.every), rows(ledger.time, input.output.history);
-  double critical = critical_time_step(body);
+  double critical = critical_time_step(body, settings.scheme);
   bool resting = false, first = true;
 
   while (ledger.time < end && !resting && !interrupted()) {

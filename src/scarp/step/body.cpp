@@ -58,6 +58,7 @@ void make_room(Body<Dim>& body) {
   auto& buffers = body.buffers;
   buffers.inside.reserve(elements);
   buffers.weight.reserve(elements);
+  buffers.mean_dilatation.reserve(elements);
   buffers.shift.reserve(elements * buffers.shift_row);
   if (body.mesh->axisymmetric) buffers.hoop_shift.reserve(elements * padded);
   buffers.mass_matrix.reserve(elements * mass_matrix_row(body.assembly.row()));
@@ -68,8 +69,45 @@ void make_room(Body<Dim>& body) {
 
 }  // namespace
 
+namespace {
+
+/// Points on a line between elements go to that with the most points inside: at the edge of a body to the element that
+/// it fills, of which every node has mass.
 template <int Dim>
-void locate_points(Body<Dim>& body) {
+void prefer_full_elements(Body<Dim>& body) {
+  struct OnLine {
+    Block<Dim>* block;
+    int i;
+    std::vector<int> elements;
+  };
+  std::vector<OnLine> on_line;
+  std::vector<int> inside(body.mesh->types.size(), 0);
+  for (auto& block : body.blocks) {
+    for (int i = 0; i < block.size(); ++i) {
+      const int e = block.points.element[i];
+      auto elements = body.locator.elements_at(position_of(block.points, i), e);
+      if (elements.size() == 1) {
+        ++inside[e];
+      } else {
+        on_line.push_back({&block, i, std::move(elements)});
+      }
+    }
+  }
+  for (const auto& [block, i, elements] : on_line) {
+    auto& points = block->points;
+    points.element[i] = *std::max_element(elements.begin(), elements.end(),
+                                          [&](int a, int b) { return inside[a] < inside[b]; });  // the first of equals
+    if (points.xi[0].empty()) continue;
+    SearchCounts unused;
+    const auto found = body.locator.find(position_of(points, i), points.element[i], unused);
+    for (int j = 0; j < Dim; ++j) points.xi[j][i] = found.xi[j];
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void locate_points(Body<Dim>& body, bool prefer_full) {
   double lightest = std::numeric_limits<double>::infinity();
   for (auto& block : body.blocks) {
     auto& points = block.points;
@@ -94,6 +132,7 @@ void locate_points(Body<Dim>& body) {
     }
     for (const double m : points.mass) lightest = std::min(lightest, m);
   }
+  if (prefer_full) prefer_full_elements(body);
   body.least_mass = 1e-12 * lightest;
   reorder(body);
   make_room(body);
@@ -116,6 +155,7 @@ void rebuild(Body<Dim>& body) {
     buffers.inside[slot] = std::all_of(around.begin(), around.end(), [&](int e) { return active.slot[e] >= 0; });
   }
   buffers.weight.assign(slots, 1.0);
+  buffers.mean_dilatation.assign(slots, 0);
   buffers.shift.resize(slots * buffers.shift_row);
   if (body.mesh->axisymmetric) buffers.hoop_shift.resize(slots * padded_row(body.assembly.row()));
   buffers.mass_matrix.resize(slots * mass_matrix_row(body.assembly.row()));
@@ -152,8 +192,8 @@ void prepare_threads(Body<Dim>& body) {
 
 template struct Body<2>;
 template struct Body<3>;
-template void locate_points<2>(Body<2>&);
-template void locate_points<3>(Body<3>&);
+template void locate_points<2>(Body<2>&, bool);
+template void locate_points<3>(Body<3>&, bool);
 template void reorder<2>(Body<2>&);
 template void reorder<3>(Body<3>&);
 template void prepare_threads<2>(Body<2>&);

@@ -29,6 +29,7 @@ template <int Dim>
 struct Resistance {
   Vec<Dim> F_damping{};   ///< local damping
   Vec<Dim> F_friction{};  ///< of a wall
+  Vec<Dim> path{};        ///< ½ P v^t dt, half of what they work on; with a scheme of two terms
 };
 
 /// Buffers of a step.
@@ -39,11 +40,12 @@ struct Buffers {
   Column weight;                     ///< w of its quadrature
   Column shift;                      ///< transfer::Shift of its quadrature, as stored: shift_row numbers
   std::size_t shift_row = 0;
-  Column hoop_shift;   ///< the same of N_i / r, in a body of revolution
-  Column mass_matrix;  ///< M_ij, where elements keep it
+  std::vector<std::uint8_t> mean_dilatation;  ///< is the volume strain of its points their mean?
+  Column hoop_shift;                          ///< the same of N_i / r, in a body of revolution
+  Column mass_matrix;                         ///< M_ij, where elements keep it
   // Of each place of the assembly:
   Column sums;      ///< transfer::node_sums numbers
-  Column momentum;  ///< transfer::momentum_size numbers
+  Column momentum;  ///< up to transfer::momentum_size numbers
   // Of every node of the mesh, valid for active ones:
   std::vector<Node<Dim>> node;
   std::vector<transfer::Motion<Dim>> motion;
@@ -86,9 +88,10 @@ inline std::size_t mass_matrix_row(int row) {
 }
 
 /// Finds the element of every point anew and prepares the first step; displacements count from here. Throws InputError
-/// where a point is outside the mesh.
+/// where a point is outside the mesh. A point on a line between elements goes to the first of them, or with
+/// `prefer_full` to that with the most points inside.
 template <int Dim>
-void locate_points(Body<Dim>& body);
+void locate_points(Body<Dim>& body, bool prefer_full = false);
 
 /// Orders points and buffers by element after points have moved or gone.
 template <int Dim>

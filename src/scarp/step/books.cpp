@@ -8,11 +8,12 @@ template <int Dim>
 StepBooks<Dim>& StepBooks<Dim>::operator+=(const StepBooks& other) {
   using B = StepBooks;
   for (double B::*sum : {&B::unbalanced_force, &B::weight, &B::work_gravity, &B::work_stress, &B::dissipation_damping,
-                         &B::dissipation_friction, &B::dissipation_pic, &B::kinetic_energy, &B::mass,
-                         &B::removed_energy, &B::removed_mass}) {
+                         &B::dissipation_friction, &B::dissipation_pic, &B::dissipation_waves, &B::kinetic_energy,
+                         &B::mass, &B::removed_energy, &B::removed_mass}) {
     this->*sum += other.*sum;
   }
-  for (std::int64_t B::*sum : {&B::removed, &B::changed_element, &B::left_mesh}) this->*sum += other.*sum;
+  for (std::int64_t B::*sum : {&B::removed, &B::massless_nodes, &B::changed_element, &B::left_mesh})
+    this->*sum += other.*sum;
   for (int j = 0; j < Dim; ++j) momentum[j] += other.momentum[j];
   for (int i = 0; i < phases; ++i) seconds[i] += other.seconds[i];
   max_velocity = std::max(max_velocity, other.max_velocity);

@@ -24,10 +24,12 @@ struct StepBooks {
   double unbalanced_force = 0, weight = 0;  ///< Σ |F_grav − F_int| over free components and Σ |F_grav|, at nodes
   double work_gravity = 0, work_stress = 0;
   double dissipation_damping = 0, dissipation_friction = 0, dissipation_pic = 0;
+  double dissipation_waves = 0;                           ///< of the damping of the rate of stress
   double kinetic_energy = 0, mass = 0, max_velocity = 0;  ///< of the points at the end
   Vec<Dim> momentum{};
   double removed_energy = 0, removed_mass = 0;  ///< kinetic energy and mass of points that left the mesh
   std::int64_t removed = 0;
+  std::int64_t massless_nodes = 0;                  ///< active nodes that no point has a share in
   std::int64_t changed_element = 0, left_mesh = 0;  ///< points that did
   exec::StressBooks stress;
   SearchCounts search;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "scarp/exec/parallel.hpp"
 #include "scarp/mesh/with_basis.hpp"
@@ -28,23 +29,56 @@ PointRange points_of(const Block<Dim>& block, int slot) {
   return {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]};
 }
 
+/// Σ Ω_p over the points of an element, as its sums have it.
 template <class Basis>
-SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, Quadrature choice, int slot, int e) {
+double volume_of_points(const Body<Basis::dim>& body, int slot) {
+  using T = PointBatch<Basis::dim>;
+  T Omega(0.0);
+  for (const auto& block : body.blocks) {
+    for_each_batch_of_element<T>(points_of(block, slot),
+                                 [&](const auto& p, int) { Omega += p.load(block.points.volume); });
+  }
+  return xsimd::hadd(Omega);
+}
+
+template <class Basis, class Places>
+SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, const Places& places, const StepSettings& settings, int slot,
+                              int e) {
+  auto& buffers = body.buffers;
   const typename Basis::Cell cell(*body.mesh, e);
   const transfer::ShapesAtPoints<Basis> shapes(cell);
-  transfer::ElementSums<Basis> sums;
-  for (const auto& block : body.blocks) {
-    transfer::points_to_nodes<Basis>(shapes, block.points, points_of(block, slot), sums);
-  }
-  auto& buffers = body.buffers;
-  transfer::Quadrature<Basis> quadrature;
+  bool full = false, mean_dilatation = false;
   if constexpr (Basis::corrects) {
-    if (choice == Quadrature::corrected && buffers.inside[slot]) {
-      quadrature =
-          transfer::full_element<Basis>(cell, xsimd::hadd(sums.Omega), sums.shift, transfer::totals<Basis>(sums.hoop));
+    full = settings.quadrature == Quadrature::corrected && buffers.inside[slot];
+    if constexpr (transfer::has_shift<Basis>) {
+      mean_dilatation = full && settings.scheme.mean_dilatation &&
+                        transfer::fills(volume_of_points<Basis>(body, slot), transfer::Means<Basis>(cell));
     }
   }
+  transfer::ElementSums<Basis> sums;
+  for (const auto& block : body.blocks) {
+    transfer::points_to_nodes<Basis>(shapes, places, block.points, points_of(block, slot), mean_dilatation, sums);
+  }
+  transfer::Quadrature<Basis> quadrature;
+  auto F = [&] { return transfer::internal_force<Basis>(sums, quadrature); };
+  std::array<transfer::Nodal<Basis>, Basis::dim> force;
+  if constexpr (Basis::corrects) {
+    if (full) {
+      const transfer::Means<Basis> mean(cell);
+      const double volume = xsimd::hadd(sums.Omega);
+      if (transfer::fills(volume, mean)) {
+        quadrature = transfer::full_element<Basis>(cell, mean, volume, sums.shift, transfer::totals<Basis>(sums.hoop));
+      }
+      if (mean_dilatation) quadrature.means = &mean;
+      force = F();
+    } else {
+      force = F();
+    }
+  } else {
+    force = F();
+  }
   buffers.weight[slot] = quadrature.weight;
+  buffers.mean_dilatation[slot] = mean_dilatation;
   quadrature.shift.store(buffers.shift.data() + slot * buffers.shift_row);
   if constexpr (is_axisymmetric<Basis>) {
     transfer::store_nodal<Basis>(quadrature.hoop_shift[0],
@@ -53,31 +87,31 @@ SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, Quadrature choice, int slo
   if constexpr (transfer::keeps_mass_matrix<Basis>) {
     transfer::store_mass_matrix(sums, buffers.mass_matrix.data() + slot * mass_matrix_row(body.assembly.row()));
   }
-  transfer::add_to_nodes<Basis>(sums, transfer::internal_force<Basis>(sums, quadrature), body.assembly.places_of(slot),
-                                buffers.sums.data());
+  transfer::add_to_nodes<Basis>(sums, force, body.assembly.places_of(slot), buffers.sums.data());
 }
 
-/// The Motion of the local nodes of an element.
+/// The Motion of the local nodes of an element, from component `first` on.
 template <class Basis>
-transfer::NodeRows<Basis> motion_of_nodes(const Body<Basis::dim>& body, int e) {
+transfer::NodeRows<Basis> motion_of_nodes(const Body<Basis::dim>& body, int e, int first = 0) {
   const int* n = body.mesh->element_nodes(e).data();
   transfer::NodeRows<Basis> rows;
-  for (int i = 0; i < Basis::nodes; ++i) rows[i] = body.buffers.motion[n[i]].row.data();
+  for (int i = 0; i < Basis::nodes; ++i) rows[i] = body.buffers.motion[n[i]].row.data() + first;
   return rows;
 }
 
-template <class Basis>
-SCARP_FLATTEN void add_momentum(Body<Basis::dim>& body, int slot, int e) {
-  const auto motion = motion_of_nodes<Basis>(body, e);
+/// Σ_j M_ij w_j of n components w of the nodes' Motion, from `from` on.
+template <class Basis, int n>
+SCARP_FLATTEN void add_momentum(Body<Basis::dim>& body, int slot, int e, int from) {
+  const auto rows = motion_of_nodes<Basis>(body, e, from);
   const int* places = body.assembly.places_of(slot);
   double* momentum = body.buffers.momentum.data();
   if constexpr (transfer::keeps_mass_matrix<Basis>) {
-    transfer::add_momentum<Basis>(body.buffers.mass_matrix.data() + slot * mass_matrix_row(body.assembly.row()), motion,
-                                  places, momentum);
+    transfer::add_momentum<Basis, n>(body.buffers.mass_matrix.data() + slot * mass_matrix_row(body.assembly.row()),
+                                     rows, places, momentum);
   } else {
     const typename Basis::Cell cell(*body.mesh, e);
     for (const auto& block : body.blocks) {
-      transfer::add_momentum<Basis>(cell, block.points, points_of(block, slot), motion, places, momentum);
+      transfer::add_momentum<Basis, n>(cell, block.points, points_of(block, slot), rows, places, momentum);
     }
   }
 }
@@ -102,11 +136,12 @@ void book(const transfer::MotionSums<Dim>& sums, StepBooks<Dim>& books) {
 }
 
 /// Which of a few points, at x now, are still in their element, as bits of lanes; the local coordinates of these are
-/// kept where the basis stores them.
-template <class Basis, class Lanes, class T, class Before>
+/// kept where the basis stores them. `beyond(xi, inside)` says which of the others stay in it all the same.
+template <class Basis, class Lanes, class T, class Before, class Beyond>
 unsigned still_inside(const typename Basis::Cell& cell, const Lanes& p, const std::array<T, Basis::dim>& x,
-                      const Before& before, double tolerance, Points<Basis::dim>& points) {
+                      const Before& before, double tolerance, Points<Basis::dim>& points, Beyond&& beyond) {
   const unsigned present = first_bits(p.count());
+  unsigned inside;
   if constexpr (Basis::stores_local) {
     std::array<T, Basis::dim> xi;
     auto found = before.follow(x, xi);
@@ -115,10 +150,42 @@ unsigned still_inside(const typename Basis::Cell& cell, const Lanes& p, const st
       found = cell.follow(x, xi, [&](const auto& good) { return (bits_of(good) & present) == present; });
     }
     for (int j = 0; j < Basis::dim; ++j) p.store(xi[j], points.xi[j]);  // those not inside get theirs later
-    return bits_of(found && cell.inside(xi, tolerance)) & present;
+    inside = bits_of(found && cell.inside(xi, tolerance)) & present;
+    if (inside != present) [[unlikely]]
+      inside |= beyond(xi) & bits_of(found) & present;
   } else {
-    return bits_of(cell.inside(cell.local(x), tolerance)) & present;
+    const auto xi = cell.local(x);
+    inside = bits_of(cell.inside(xi, tolerance)) & present;
+    if (inside != present) [[unlikely]]
+      inside |= beyond(xi) & present;
   }
+  return inside;
+}
+
+/// Have the nodes of an element masses that differ by no more than a factor of ten? A last point that lingers beyond a
+/// free edge would leave a node with next to no mass, or less than none.
+template <class Basis>
+bool nodes_are_full(const Body<Basis::dim>& body, int e) {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const int n : body.mesh->element_nodes(e)) {
+    least = std::min(least, body.buffers.node[n].m);
+    most = std::max(most, body.buffers.node[n].m);
+  }
+  return least >= 0.1 * most;
+}
+
+/// Step 11, late: points that are beyond their element by no more than `lateness` parts of it stay there, wherever the
+/// mesh goes on. Each change of element weights the stored energy of two elements anew; points that lie on a line
+/// between elements and cross it to and fro would bring in more with each vibration (docs/theory.md, "Late leaving").
+template <class Basis, class T>
+unsigned linger(const Body<Basis::dim>& body, const typename Basis::Cell& cell, int e,
+                const std::array<T, Basis::dim>& xi, double lateness) {
+  if constexpr (Basis::has_domains) return 0;  // its functions are continuous, and hold within the cell only
+  if (lateness == 0 || !nodes_are_full<Basis>(body, e)) return 0;
+  std::array<double, Basis::sides> tolerance;
+  for (int side = 0; side < Basis::sides; ++side)
+    tolerance[side] = body.locator.ends_at(e, side) ? body.locator.tolerance() : lateness;
+  return bits_of(cell.inside(xi, tolerance));
 }
 
 /// Step 11 for those of a few points that are not `inside` element e any more.
@@ -136,6 +203,31 @@ template <int Dim, class Lanes>
   }
 }
 
+/// What the scheme says of the sweep of steps 4 and 6 to 11.
+struct MoveRules {
+  transfer::MotionRules motion;
+  double lateness;
+  bool mends_massless;  ///< and there are such nodes
+};
+
+/// A node that no point has a share in, in an element whose points lie on a line, has no velocity of its own. In place
+/// of none it takes the mean of the element's other nodes: a body that moves is not strained where it ends on a line.
+template <class Basis>
+void mend_massless(const Body<Basis::dim>& body, int e, transfer::NodeRows<Basis>& rows,
+                   transfer::Motion<Basis::dim>& mean) {
+  const int* n = body.mesh->element_nodes(e).data();
+  int heavy = 0;
+  for (int i = 0; i < Basis::nodes; ++i) {
+    if (body.buffers.node[n[i]].m == 0) continue;
+    ++heavy;
+    for (std::size_t c = 0; c < mean.row.size(); ++c) mean.row[c] += rows[i][c];
+  }
+  for (double& x : mean.row) x /= std::max(heavy, 1);
+  for (int i = 0; i < Basis::nodes; ++i) {
+    if (body.buffers.node[n[i]].m == 0) rows[i] = mean.row.data();
+  }
+}
+
 /// What the sweep of steps 4 and 6 to 11 adds up over a chunk.
 template <int Dim>
 struct MotionBooks {
@@ -145,39 +237,49 @@ struct MotionBooks {
 
 /// Steps 4, 6, 8, 9, 10 and 11 for the points of a block in an element.
 template <bool pic, class Basis>
-SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block, int slot, int e, double flip,
-                               Strains<Basis::dim>& strains, int at, MotionBooks<Basis::dim>& motion,
-                               StepBooks<Basis::dim>& books) {
+SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block, int slot, int e,
+                               const MoveRules& rules, Strains<Basis::dim>& strains, int at,
+                               MotionBooks<Basis::dim>& motion, StepBooks<Basis::dim>& books) {
   const typename Basis::Cell cell(*body.mesh, e);
   transfer::ElementMotion<Basis> element{motion_of_nodes<Basis>(body, e),
                                          {},
                                          body.buffers.shift.data() + slot * body.buffers.shift_row,
                                          body.buffers.weight[slot],
                                          body.mesh->size[e],
-                                         nullptr};
+                                         nullptr,
+                                         body.buffers.mean_dilatation[slot] != 0};
   if constexpr (is_axisymmetric<Basis>) {
     element.hoop_shift = body.buffers.hoop_shift.data() + slot * padded_row(body.assembly.row());
   }
+  transfer::Motion<Basis::dim> mean_motion;
+  if (rules.mends_massless) mend_massless<Basis>(body, e, element.motion, mean_motion);
   if constexpr (pic) {
     const int* n = body.mesh->element_nodes(e).data();
     for (int i = 0; i < Basis::nodes; ++i) element.a_dt[i] = body.buffers.a_dt[n[i]].data();
   }
-  transfer::nodes_to_points<pic, Basis>(cell, element, flip, block.points, points_of(block, slot), strains, at,
-                                        motion.sums, [&](const auto& p, const auto& x, const auto& before) {
-                                          const unsigned inside = still_inside<Basis>(
-                                              cell, p, x, before, body.locator.tolerance(), block.points);
-                                          motion.stayed += std::popcount(inside);
-                                          if (inside != first_bits(p.count())) [[unlikely]]
-                                            find_new_elements(body.locator, e, p, inside, block.points, books);
-                                        });
+  double mean = 0;
+  if constexpr (transfer::has_shift<Basis>) {
+    if (element.mean_dilatation) mean = transfer::mean_dilation<Basis>(cell, element.motion);
+  }
+  transfer::nodes_to_points<pic, Basis>(
+      cell, element, rules.motion, block.points, points_of(block, slot), mean, strains, at, motion.sums,
+      [&](const auto& p, const auto& x, const auto& before) {
+        const unsigned inside =
+            still_inside<Basis>(cell, p, x, before, body.locator.tolerance(), block.points,
+                                [&](const auto& xi) { return linger<Basis>(body, cell, e, xi, rules.lateness); });
+        motion.stayed += std::popcount(inside);
+        if (inside != first_bits(p.count())) [[unlikely]]
+          find_new_elements(body.locator, e, p, inside, block.points, books);
+      });
 }
 
 template <bool pic, int Dim>
-void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, double flip, Strains<Dim>& strains,
-                     StepBooks<Dim>& books) {
+void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, const MoveRules& rules,
+                     Strains<Dim>& strains, StepBooks<Dim>& books) {
   MotionBooks<Dim> motion;
   for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
-    move_points<pic, Basis>(body, block, slot, e, flip, strains, block.begin[slot] - block.begin[first], motion, books);
+    move_points<pic, Basis>(body, block, slot, e, rules, strains, block.begin[slot] - block.begin[first], motion,
+                            books);
   });
   book(motion.sums, books);
   books.search.own += motion.stayed;
@@ -188,48 +290,61 @@ void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, do
 }  // namespace
 
 template <int Dim>
-void map_points_to_elements(Body<Dim>& body, Quadrature choice, StepBooks<Dim>& books) {
+void map_points_to_elements(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books) {
   for_each_chunk(body, body.assembly.chunk(), books, [&](int first, int last, StepBooks<Dim>&) {
     clear_places(body, first, body.buffers.sums, transfer::node_sums<Dim>);
-    for_each_element(body, first, last,
-                     [&]<class Basis>(Basis, int slot, int e) { sum_points<Basis>(body, choice, slot, e); });
+    for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
+      if (settings.scheme.affine) {
+        sum_points<Basis>(body, transfer::NodePlaces<Basis>(*body.mesh, e), settings, slot, e);
+      } else {
+        sum_points<Basis>(body, transfer::NoPlaces{}, settings, slot, e);
+      }
+    });
   });
 }
 
-template <int Dim>
-void change_momentum(Body<Dim>& body, StepBooks<Dim>& books) {
+template <int n, int Dim>
+void sum_with_mass_matrix(Body<Dim>& body, int from, StepBooks<Dim>& books) {
   for_each_chunk(body, body.assembly.chunk(), books, [&](int first, int last, StepBooks<Dim>&) {
-    clear_places(body, first, body.buffers.momentum, transfer::momentum_size<Dim>);
+    clear_places(body, first, body.buffers.momentum, transfer::place_size<n>);
     for_each_element(body, first, last,
-                     [&]<class Basis>(Basis, int slot, int e) { add_momentum<Basis>(body, slot, e); });
+                     [&]<class Basis>(Basis, int slot, int e) { add_momentum<Basis, n>(body, slot, e, from); });
   });
 }
 
 template <int Dim>
 void strain_stress_and_motion(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
+  const auto& scheme = settings.scheme;
+  const MoveRules rules{{scheme.kept(dt), scheme.middle, scheme.affine, dt},
+                        scheme.lateness,
+                        scheme.mends_massless && books.massless_nodes > 0};
   for_each_chunk(body, element_chunk, books, [&](int first, int last, StepBooks<Dim>& part) {
     Strains<Dim>& strains = body.buffers.strains[exec::thread_number()];
     for (auto& block : body.blocks) {
       {
         const Stopwatch<Dim> watch(settings.profile, part, Phase::strain_and_move);
-        if (settings.flip == 1) {
-          strain_and_move<false>(body, block, first, last, settings.flip, strains, part);
+        if (rules.motion.flip == 1) {
+          strain_and_move<false>(body, block, first, last, rules, strains, part);
         } else {
-          strain_and_move<true>(body, block, first, last, settings.flip, strains, part);
+          strain_and_move<true>(body, block, first, last, rules, strains, part);
         }
       }
       const Stopwatch<Dim> watch(settings.profile, part, Phase::stress);
       const PointRange range{block.order.data() + block.begin[first], block.begin[last] - block.begin[first]};
-      exec::update_stresses(block, range, strains, 0, dt, settings.integration, part.stress);
+      exec::update_stresses(block, range, strains, 0, dt, settings.integration,
+                            scheme::waves(scheme, is_elastic(block.model)), part.stress);
     }
   });
   books.work_stress = books.stress.work;
+  books.dissipation_waves = books.stress.damping;
 }
 
-template void map_points_to_elements<2>(Body<2>&, Quadrature, StepBooks<2>&);
-template void map_points_to_elements<3>(Body<3>&, Quadrature, StepBooks<3>&);
-template void change_momentum<2>(Body<2>&, StepBooks<2>&);
-template void change_momentum<3>(Body<3>&, StepBooks<3>&);
+template void map_points_to_elements<2>(Body<2>&, const StepSettings&, StepBooks<2>&);
+template void map_points_to_elements<3>(Body<3>&, const StepSettings&, StepBooks<3>&);
+template void sum_with_mass_matrix<2>(Body<2>&, int, StepBooks<2>&);
+template void sum_with_mass_matrix<4>(Body<2>&, int, StepBooks<2>&);
+template void sum_with_mass_matrix<3>(Body<3>&, int, StepBooks<3>&);
+template void sum_with_mass_matrix<6>(Body<3>&, int, StepBooks<3>&);
 template void strain_stress_and_motion<2>(Body<2>&, double, const StepSettings&, StepBooks<2>&);
 template void strain_stress_and_motion<3>(Body<3>&, double, const StepSettings&, StepBooks<3>&);
 

@@ -37,13 +37,15 @@ bool is_resisted(const Body<Dim>& body, int n, double damping) {
 /// Local damping of the force F against the motion, and the conditions: changes a = F / m, notes what is held and the
 /// resistance; F becomes what of it is not balanced.
 template <int Dim>
-[[gnu::noinline]] void resist(Body<Dim>& body, int n, double dt, double damping, Vec<Dim>& F, Vec<Dim>& a) {
+[[gnu::noinline]] void resist(Body<Dim>& body, int n, double dt, const StepSettings& settings, Vec<Dim>& F,
+                              Vec<Dim>& a) {
+  const double damping = settings.damping;
   Node<Dim>& node = body.buffers.node[n];
   Resistance<Dim>& resistance = body.buffers.resistance[n];
   resistance = {};
   for (int j = 0; j < Dim; ++j) {
     if (damping != 0 && node.v[j] != 0) {
-      resistance.F_damping[j] = -std::copysign(damping * std::abs(F[j]), node.v[j]);
+      resistance.F_damping[j] = -damping * std::abs(F[j]) * scheme::direction(settings.scheme, node.v[j], a[j] * dt);
     }
     a[j] = (F[j] + resistance.F_damping[j]) * node.per_mass;
   }
@@ -58,11 +60,35 @@ template <int Dim>
   }
 }
 
-/// Step 3: a_n = (F_grav − F_int) / m_n (eq. 5), and by what it changes the velocities of points (step 4):
-/// c = φ a dt + (1 − φ) ṽ, ṽ = v^t + a dt with the conditions. Returns the force that is not balanced.
+/// Books the work of resistance on the path of component j.
 template <int Dim>
-Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const StepSettings& settings) {
+void book_resistance(const Resistance<Dim>& resistance, int j, double path, StepBooks<Dim>& books) {
+  books.dissipation_damping -= resistance.F_damping[j] * path;
+  books.dissipation_friction -= resistance.F_friction[j] * path;
+}
+
+/// Points that take the nodes' velocities, c = ṽ, keep of the kinetic energy what they can. The rest is booked as that
+/// of PIC: here Σ ½ m_n (ṽ² − v^t²), which forces and holds have made of what the points brought, and by the points Σ ½
+/// m_p (v_p^t² − v_p^{t+dt}²).
+template <int Dim>
+void take_velocity(Body<Dim>& body, int n, const Vec<Dim>& v_next, double dt, bool resisted, StepBooks<Dim>& books) {
+  const Node<Dim>& node = body.buffers.node[n];
+  for (int j = 0; j < Dim; ++j) {
+    body.buffers.motion[n].dv(j) = v_next[j];
+    body.buffers.a_dt[n][j] = 0;
+    books.dissipation_pic += 0.5 * node.m * (v_next[j] * v_next[j] - node.v[j] * node.v[j]);
+    if (resisted) book_resistance(body.buffers.resistance[n], j, 0.5 * (node.v[j] + v_next[j]) * dt, books);
+  }
+}
+
+/// Step 3: a_n = (F_grav − F_int) / m_n (eq. 5), and what the scheme makes of it (scheme.hpp): c, by which the
+/// velocities of points change (step 4), or a dt and ṽ, of which a scheme of two terms forms c. Returns the force that
+/// is not balanced.
+template <int Dim>
+Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const StepSettings& settings,
+                    StepBooks<Dim>& books) {
   Node<Dim>& node = body.buffers.node[n];
+  const Scheme& scheme = settings.scheme;
   const double m = sum[0], per_mass = 1 / m, *p = sum + 1, *F_int = p + Dim;
   Vec<Dim> F, a;
   node.m = m;  // one by one: a whole Node would be loaded from where its parts have just been stored, and wait for them
@@ -75,18 +101,38 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
   }
   const bool resisted = is_resisted(body, n, settings.damping);
   if (resisted) [[unlikely]]
-    resist<Dim>(body, n, dt, settings.damping, F, a);
+    resist<Dim>(body, n, dt, settings, F, a);
   auto& motion = body.buffers.motion[n];
   for (int j = 0; j < Dim; ++j) motion.dv(j) = a[j] * dt;
-  if (settings.flip == 1) return F;
+  if (scheme.flip == 1 && !scheme.two_terms) return F;
   Vec<Dim> v_next;
   for (int j = 0; j < Dim; ++j) {
     body.buffers.a_dt[n][j] = a[j] * dt;
     v_next[j] = node.v[j] + a[j] * dt;
   }
   if (resisted) constrain_velocity<Dim>(body.conditions, n, node.held, v_next);
-  for (int j = 0; j < Dim; ++j) motion.dv(j) = settings.flip * a[j] * dt + (1 - settings.flip) * v_next[j];
+  if (scheme.affine) {
+    take_velocity<Dim>(body, n, v_next, dt, resisted, books);
+  } else if (scheme.two_terms) {
+    for (int j = 0; j < Dim; ++j) {
+      if (node.held & (1u << j)) motion.dv(j) = 0;  // what holds a node is no part of P
+      motion.du(j) = v_next[j];
+    }
+  } else {
+    for (int j = 0; j < Dim; ++j) motion.dv(j) = scheme::change_of_velocity(scheme.flip, a[j], dt, v_next[j]);
+  }
   return F;
+}
+
+/// f(node, its number, M w) of the active nodes with mass, where M w are the n numbers that were summed up for each.
+template <int n, int Dim, class F>
+void with_sums(const Body<Dim>& body, int first, int last, F&& f) {
+  for (int k = first; k < last; ++k) {
+    const int number = body.assembly.node(k);
+    const Node<Dim>& node = body.buffers.node[number];
+    if (node.m < body.least_mass) continue;
+    f(node, number, gathered<transfer::place_size<n>>(body, k, body.buffers.momentum));
+  }
 }
 
 }  // namespace
@@ -102,9 +148,10 @@ void accelerate_nodes(Body<Dim>& body, double dt, const StepSettings& settings, 
         body.buffers.node[n] = {};
         body.buffers.motion[n] = {};
         body.buffers.a_dt[n] = {};
+        ++part.massless_nodes;
         continue;
       }
-      for (const double F : accelerate(body, n, sum.data(), dt, settings)) unbalanced += std::abs(F);
+      for (const double F : accelerate(body, n, sum.data(), dt, settings, part)) unbalanced += std::abs(F);
       mass += sum[0];
     }
     part.unbalanced_force = unbalanced;
@@ -112,26 +159,41 @@ void accelerate_nodes(Body<Dim>& body, double dt, const StepSettings& settings, 
   });
 }
 
-/// Forces at nodes work on ½ (v^t + v^{t+dt}): with that the change of the points' kinetic energy is theirs to the last
-/// bit. Gravity works on the points' displacements: Σ m_p du_p = Σ m_n v_n dt.
+template <int Dim>
+void filter_changes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
+  const double phi = settings.scheme.kept(dt);
+  for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>&) {
+    with_sums<2 * Dim>(body, first, last, [&](const Node<Dim>& node, int n, const auto& M_w) {
+      auto& motion = body.buffers.motion[n];
+      auto& a_dt = body.buffers.a_dt[n];
+      const bool resisted = is_resisted(body, n, settings.damping);
+      for (int j = 0; j < Dim; ++j) {
+        const bool held = (node.held >> j & 1u) != 0;
+        const double v_next = scheme::filtered(motion.du(j), M_w[Dim + j], node.per_mass, held);
+        if (!held) a_dt[j] = scheme::filtered(motion.dv(j), M_w[j], node.per_mass, held);
+        if (resisted) body.buffers.resistance[n].path[j] = 0.5 * (v_next - a_dt[j]) * dt;
+        motion.dv(j) = scheme::change_of_velocity(phi, a_dt[j], 1, v_next);
+      }
+    });
+  });
+}
+
+/// Forces at nodes work on ½ (v^t + v^{t+dt}), with P before it in a scheme of two terms: with that the change of the
+/// points' kinetic energy is theirs to the last bit. Gravity works on the points' displacements:
+/// Σ m_p du_p = Σ m_n du_n.
 template <int Dim>
 void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
+  const double phi = settings.scheme.kept(dt);
   for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>& part) {
-    double damping = 0, friction = 0;
     Vec<Dim> m_du{};
-    for (int k = first; k < last; ++k) {
-      const int n = body.assembly.node(k);
-      const Node<Dim>& node = body.buffers.node[n];
-      if (node.m < body.least_mass) continue;
-      const auto dp = gathered<transfer::momentum_size<Dim>>(body, k, body.buffers.momentum);
+    with_sums<Dim>(body, first, last, [&](const Node<Dim>& node, int n, const auto& dp) {
       Vec<Dim> v;
-      for (int j = 0; j < Dim; ++j) v[j] = settings.flip * node.v[j] + dp[j] * node.per_mass;
+      for (int j = 0; j < Dim; ++j) v[j] = phi * node.v[j] + dp[j] * node.per_mass;
       if (is_resisted(body, n, settings.damping)) [[unlikely]] {
-        const auto& resistance = body.buffers.resistance[n];
         for (int j = 0; j < Dim; ++j) {
-          const double path = 0.5 * (node.v[j] + v[j]) * dt;
-          damping -= resistance.F_damping[j] * path;
-          friction -= resistance.F_friction[j] * path;
+          if (settings.scheme.affine) break;                                  // booked on ṽ
+          if (settings.scheme.two_terms && !(node.held >> j & 1u)) continue;  // on P v, below
+          book_resistance(body.buffers.resistance[n], j, 0.5 * (node.v[j] + v[j]) * dt, part);
         }
         constrain_velocity<Dim>(body.conditions, n, node.held, v);
       }
@@ -140,15 +202,44 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
         motion.du(j) = v[j] * dt;
         m_du[j] += node.m * motion.du(j);
       }
-    }
-    part.dissipation_damping = damping;
-    part.dissipation_friction = friction;
+    });
+    if (settings.scheme.filters_motion()) return;
+    for (int j = 0; j < Dim; ++j) part.work_gravity += m_du[j] * body.gravity[j];
+  });
+}
+
+template <int Dim>
+void filter_displacements(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books) {
+  for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>& part) {
+    Vec<Dim> m_du{};
+    with_sums<Dim>(body, first, last, [&](const Node<Dim>& node, int n, const auto& M_w) {
+      auto& motion = body.buffers.motion[n];
+      Vec<Dim> du;
+      for (int j = 0; j < Dim; ++j)
+        du[j] = scheme::filtered(motion.du(j), M_w[j], node.per_mass, (node.held >> j & 1u) != 0);
+      if (is_resisted(body, n, settings.damping)) [[unlikely]] {
+        const auto& resistance = body.buffers.resistance[n];
+        for (int j = 0; j < Dim; ++j) {
+          if (settings.scheme.two_terms && !(node.held >> j & 1u))
+            book_resistance(resistance, j, resistance.path[j] + 0.5 * du[j], part);
+        }
+        constrain_velocity<Dim>(body.conditions, n, node.held, du);
+      }
+      for (int j = 0; j < Dim; ++j) {
+        motion.du(j) = du[j];
+        m_du[j] += node.m * du[j];
+      }
+    });
     for (int j = 0; j < Dim; ++j) part.work_gravity += m_du[j] * body.gravity[j];
   });
 }
 
 template void accelerate_nodes<2>(Body<2>&, double, const StepSettings&, StepBooks<2>&);
 template void accelerate_nodes<3>(Body<3>&, double, const StepSettings&, StepBooks<3>&);
+template void filter_changes<2>(Body<2>&, double, const StepSettings&, StepBooks<2>&);
+template void filter_changes<3>(Body<3>&, double, const StepSettings&, StepBooks<3>&);
+template void filter_displacements<2>(Body<2>&, const StepSettings&, StepBooks<2>&);
+template void filter_displacements<3>(Body<3>&, const StepSettings&, StepBooks<3>&);
 template void velocities_of_nodes<2>(Body<2>&, double, const StepSettings&, StepBooks<2>&);
 template void velocities_of_nodes<3>(Body<3>&, double, const StepSettings&, StepBooks<3>&);
 

@@ -7,19 +7,27 @@ namespace scarp::step {
 
 /// Step 1: every element adds up mass, momentum and internal force for its own local nodes from its own points.
 template <int Dim>
-void map_points_to_elements(Body<Dim>& body, Quadrature choice, StepBooks<Dim>& books);
+void map_points_to_elements(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books);
 
 /// Steps 2 and 3 for all active nodes: their sums, acceleration and conditions.
 template <int Dim>
 void accelerate_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books);
 
-/// Steps 4 and 5: the momentum of the nodes after the points have changed their velocities.
-template <int Dim>
-void change_momentum(Body<Dim>& body, StepBooks<Dim>& books);
+/// Σ_j M_ij w_j over the elements, for n components w of the nodes' Motion from component `from` on.
+template <int n, int Dim>
+void sum_with_mass_matrix(Body<Dim>& body, int from, StepBooks<Dim>& books);
 
-/// Step 5, end: v_n^{t+dt} = p_n / m_n (eq. 8) with the conditions.
+/// Step 4 of a scheme of two terms, after the sums of a dt and ṽ: c = P [φ a dt + (1 − φ) ṽ].
+template <int Dim>
+void filter_changes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books);
+
+/// Step 5, end, after the sums of c: v_n^{t+dt} = p_n / m_n (eq. 8) with the conditions.
 template <int Dim>
 void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books);
+
+/// The same of a scheme of two terms, after the sums of v dt: du = P v dt.
+template <int Dim>
+void filter_displacements(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books);
 
 /// Step 4 for the points themselves, and steps 6 to 11 for the points of one chunk of elements after the other, so that
 /// what one step hands to the next stays in the cache.

@@ -96,8 +96,31 @@ void book_motion(const Body<Dim>& body, StepBooks<Dim>& books) {
   books.max_velocity = total.max_velocity;
 }
 
+namespace {
+
+/// The columns that only some schemes have: σ*, which starts as the stress it is, and C_p, as nothing.
+template <int Dim>
+void prepare_columns(Body<Dim>& body, const Scheme& scheme) {
+  for (auto& block : body.blocks) {
+    auto& points = block.points;
+    const bool ahead = scheme::waves(scheme, is_elastic(block.model)).damped();
+    for (int c = 0; c < sym_size<Dim>; ++c) {
+      const bool works = Dim == 3 || c != 2 || body.mesh->axisymmetric;  // σ_zz does no work in plane strain
+      auto& column = points.sigma_ahead[c];
+      if (ahead && works && column.empty()) column = points.sigma[c];
+      if (!ahead && !column.empty()) column = {};
+    }
+    for (auto& column : points.C) {
+      if (scheme.affine && column.empty()) column.resize(points.mass.size(), 0.0);
+      if (!scheme.affine && !column.empty()) column = {};
+    }
+  }
+}
+
+}  // namespace
+
 /// Steps 4 and 5 ask for the points' velocities (eq. 6, with a PIC share 1 − φ) only to form momentum of them again
-/// (eq. 7). Both are linear: with c_j = φ a_j dt + (1 − φ) ṽ_j at the nodes
+/// (eq. 7). Both are linear: with c_j the change of velocity at the nodes (scheme.hpp)
 ///     v_p^{t+dt} = φ v_p + Σ_j c_j N_j,
 ///     p_i^{t+dt} = Σ_p m_p v_p^{t+dt} N_i = φ p_i + Σ_j M_ij c_j,   M_ij = Σ_p m_p N_i N_j,
 /// so that step 5 needs M_ij, summed up in step 1, and no points; these take their v_p^{t+dt} with the sweep that moves
@@ -109,29 +132,40 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
     const Stopwatch<Dim> watch(settings.profile, books, phase);
     f();
   };
+  const Scheme& scheme = settings.scheme;
   prepare_threads(body);
-  timed(Phase::points_to_nodes, [&] { step::map_points_to_elements(body, settings.quadrature, books); });  // 1, eqs 1–4
-  timed(Phase::nodes, [&] { step::accelerate_nodes(body, dt, settings, books); });     // 2 and 3, eq. 5
-  timed(Phase::velocities, [&] { step::change_momentum(body, books); });               // 4 and 5, eqs 6 and 7
+  prepare_columns(body, scheme);
+  timed(Phase::points_to_nodes, [&] { step::map_points_to_elements(body, settings, books); });  // 1, eqs 1–4
+  timed(Phase::nodes, [&] { step::accelerate_nodes(body, dt, settings, books); });              // 2 and 3, eq. 5
+  if (scheme.two_terms) {
+    timed(Phase::velocities, [&] { step::sum_with_mass_matrix<2 * Dim>(body, 0, books); });
+    timed(Phase::nodes, [&] { step::filter_changes(body, dt, settings, books); });  // 4: c = P c
+  }
+  timed(Phase::velocities, [&] { step::sum_with_mass_matrix<Dim>(body, 0, books); });  // 4 and 5, eqs 6 and 7
   timed(Phase::nodes, [&] { step::velocities_of_nodes(body, dt, settings, books); });  // 5, eq. 8
+  if (scheme.filters_motion()) {
+    timed(Phase::velocities, [&] { step::sum_with_mass_matrix<Dim>(body, Dim, books); });
+    timed(Phase::nodes, [&] { step::filter_displacements(body, settings, books); });  // 5: du = P v dt
+  }
   step::strain_stress_and_motion(body, dt, settings, books);          // 4, 6 to 11, eqs 6, 9–19 and section 3
   timed(Phase::order, [&] { order_points(body, settings, books); });  // 11
   return books;
 }
 
 template <int Dim>
-double critical_time_step(const Body<Dim>& body) {
+double critical_time_step(const Body<Dim>& body, const Scheme& scheme) {
   double dt = std::numeric_limits<double>::infinity();
   for (const auto& block : body.blocks) {
-    dt = std::min(dt, exec::critical_time_step(block, body.mesh->size, body.active, body.buffers.weight));
+    dt = std::min(dt, exec::critical_time_step(block, body.mesh->size, body.active, body.buffers.weight,
+                                               scheme::waves(scheme, is_elastic(block.model))));
   }
   return dt;
 }
 
 template StepBooks<2> advance<2>(Body<2>&, double, const StepSettings&);
 template StepBooks<3> advance<3>(Body<3>&, double, const StepSettings&);
-template double critical_time_step<2>(const Body<2>&);
-template double critical_time_step<3>(const Body<3>&);
+template double critical_time_step<2>(const Body<2>&, const Scheme&);
+template double critical_time_step<3>(const Body<3>&, const Scheme&);
 template void book_motion<2>(const Body<2>&, StepBooks<2>&);
 template void book_motion<3>(const Body<3>&, StepBooks<3>&);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scarp/step/body.hpp"
+#include "scarp/step/scheme.hpp"
 
 namespace scarp {
 
@@ -12,7 +13,7 @@ enum class Quadrature {
 };
 
 struct StepSettings {
-  double flip = 1;     ///< share of FLIP in the velocity update; 1 is the report's
+  Scheme scheme{};     ///< as constructed the report's, with pure FLIP
   double damping = 0;  ///< local damping coefficient
   Quadrature quadrature = Quadrature::corrected;
   IntegrationSettings integration;
@@ -24,10 +25,10 @@ struct StepSettings {
 template <int Dim>
 StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings);
 
-/// The largest stable time step for the present stiffness of every point: min h / (c + |v|). Infinite without
-/// stiffness.
+/// The largest stable time step of a scheme for the present stiffness of every point: min 1 / (c/(k h) + |v|/h), with k
+/// of exec::WaveSettings. Infinite without stiffness.
 template <int Dim>
-double critical_time_step(const Body<Dim>& body);
+double critical_time_step(const Body<Dim>& body, const Scheme& scheme = {});
 
 /// Mass, momentum, kinetic energy and largest velocity of the points as they are.
 template <int Dim>

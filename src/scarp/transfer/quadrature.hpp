@@ -12,6 +12,10 @@
 // In a body of revolution N_i / r, the circumference's part, is corrected in the same way, with ∫ N_i dA as its
 // integral.
 //
+// Mean dilatation, against volumetric locking: the volume strain of all points of a full element is its mean there, of
+// the gradients B̄_i = (1/V) ∫ ∇N_i dV = Σ Ω_p B̂_i(x_p) / Σ Ω_p, and the mean stress acts on these alone:
+//     L_p ← L_p + (1/d) (tr L̄ − tr L_p) I,   F_i = w Σ Ω_p (σ_p − s_p I) · B̂_i + w (Σ Ω_p s_p) B̄_i,   s_p = tr σ_p / d.
+//
 // The sums over the points need no second pass: Σ B̂_iᵀ σ_p Ω̂_p = w (Σ B_iᵀ σ_p Ω_p + s_iᵀ Σ σ_p Ω_p).
 #pragma once
 
@@ -25,20 +29,6 @@ namespace scarp::transfer {
 /// Numbers of the local nodes that only a body of revolution has.
 template <class Basis>
 using Hoop = std::array<Nodal<Basis>, is_axisymmetric<Basis> ? 1 : 0>;
-
-/// What the step uses for an element's points: w and s_i; as constructed, eq. 4 as printed.
-template <class Basis>
-struct Quadrature {
-  double weight = 1;
-  Shift<Basis> shift;
-  Hoop<Basis> hoop_shift;  ///< of N_i / r [1/m]
-
-  Quadrature() {
-    if constexpr (is_axisymmetric<Basis>) {
-      repeat<nodal_batches<Basis>>([&](auto b) { hoop_shift[0][b] = Lane<Basis>(0.0); });
-    }
-  }
-};
 
 /// An element's volume V and (1/V) ∫ ∇N_i dV, and in a body of revolution (1/V) ∫ N_i dA.
 template <class Basis>
@@ -119,15 +109,34 @@ requires(SplineFunctions<GridSpline<Dim>, Lane<GridSpline<Dim>>>::possible) stru
   }
 };
 
-/// The quadrature of an element full of soil, from Σ Ω_p, what its shift follows from and (in a body of revolution)
-/// Σ Ω_p N_i / r over its points. Points that fill less than half of the element, or more than twice, are no quadrature
-/// of it: they keep eq. 4.
+/// What the step uses for an element's points: w and s_i; as constructed, eq. 4 as printed.
 template <class Basis>
-inline Quadrature<Basis> full_element(const typename Basis::Cell& cell, double volume, const ShiftSums<Basis>& sums,
-                                      const Hoop<Basis>& hoop) {
+struct Quadrature {
+  double weight = 1;
+  Shift<Basis> shift;
+  Hoop<Basis> hoop_shift;               ///< of N_i / r [1/m]
+  const Means<Basis>* means = nullptr;  ///< of mean dilatation: what mean stresses act on; not set: B̂_i, as all stress
+
+  Quadrature() {
+    if constexpr (is_axisymmetric<Basis>) {
+      repeat<nodal_batches<Basis>>([&](auto b) { hoop_shift[0][b] = Lane<Basis>(0.0); });
+    }
+  }
+};
+
+/// Do points of so much volume fill an element? Those of less than half of it, or more than twice, are no quadrature of
+/// it: they keep eq. 4.
+template <class Basis>
+inline bool fills(double volume, const Means<Basis>& mean) {
+  return volume > 0.5 * mean.V && volume < 2 * mean.V;
+}
+
+/// The quadrature of an element full of soil, from Σ Ω_p, what its shift follows from and (in a body of revolution)
+/// Σ Ω_p N_i / r over its points.
+template <class Basis>
+inline Quadrature<Basis> full_element(const typename Basis::Cell& cell, const Means<Basis>& mean, double volume,
+                                      const ShiftSums<Basis>& sums, const Hoop<Basis>& hoop) {
   Quadrature<Basis> q;
-  const Means<Basis> mean(cell);
-  if (!(volume > 0.5 * mean.V && volume < 2 * mean.V)) return q;
   const double per_volume = 1 / volume;
   q.weight = mean.V * per_volume;
   q.shift = Shift<Basis>(cell, mean, sums, per_volume);

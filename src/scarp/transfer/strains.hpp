@@ -4,7 +4,9 @@
 #include <array>
 #include <vector>
 
+#include "scarp/mesh/basis.hpp"
 #include "scarp/points/points.hpp"
+#include "scarp/tensor/rotation.hpp"
 #include "scarp/transfer/batches.hpp"
 
 namespace scarp {
@@ -41,6 +43,35 @@ inline T determinant_of_stretch(const std::array<std::array<T, 3>, 3>& L) {
   const T x = T(1.0) + L[0][0], y = T(1.0) + L[1][1], z = T(1.0) + L[2][2];
   return x * (y * z - L[1][2] * L[2][1]) - L[0][1] * (L[1][0] * z - L[1][2] * L[2][0]) +
          L[0][2] * (L[1][0] * L[2][1] - y * L[2][0]);
+}
+
+/// L̃ = L dt (I + ½ L dt)⁻¹: the gradient of the step's displacement where the body is in the middle of it. A rotation
+/// by any angle is without strain there, and a stretch of 1 + e has the strain ln(1 + e) to third order.
+template <std::size_t Dim, class T>
+inline std::array<std::array<T, Dim>, Dim> of_middle(const std::array<std::array<T, Dim>, Dim>& L) {
+  std::array<std::array<T, Dim>, Dim> A, I, M;
+  repeat<Dim>([&](auto j) { repeat<Dim>([&](auto k) { A[j][k] = fma(T(0.5), L[j][k], T(j == k ? 1.0 : 0.0)); }); });
+  scarp::detail::inverse(A, I);
+  repeat<Dim>([&](auto j) {
+    repeat<Dim>([&](auto k) {
+      M[j][k] = L[j][0] * I[0][k];
+      repeat<Dim - 1>([&](auto l) { M[j][k] = fma(L[j][l + 1], I[l + 1][k], M[j][k]); });
+    });
+  });
+  return M;
+}
+
+/// Turns the strain increments at place `at`, those of the middle of the step, by half the spin there to its end, where
+/// the stress is turned to.
+template <int Dim, class T>
+inline void turn_to_end(Strains<Dim>& strains, int at) {
+  constexpr int N = sym_size<Dim>;
+  Sym<T, N> deps;
+  Spin<T, N> half;
+  repeat<N>([&](auto c) { deps[c] = T::load_unaligned(strains.deps[c].data() + at); });
+  repeat<spin_size<Dim>>([&](auto c) { half.w[c] = T(0.5) * T::load_unaligned(strains.spin[c].data() + at); });
+  const auto turned = Rotation<T, N>(half)(deps);
+  repeat<N>([&](auto c) { turned[c].store_unaligned(strains.deps[c].data() + at); });
 }
 
 /// Strain and spin increments (eqs 10, 11) of L dt to the places `at` on; in the plane `hoop` is that of the

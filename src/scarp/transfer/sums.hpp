@@ -44,6 +44,7 @@ struct ElementSums {
   std::array<OfNodes, Hoop<Basis>{}.size()> hoop;   ///< Σ Ω_p N_i / r
   std::array<OfNodes, rows> M;                      ///< Σ m_p N_i N_{i+k}
   OfPoints Omega = OfPoints(0.0);                   ///< Σ Ω_p
+  OfPoints Omega_mean = OfPoints(0.0);              ///< Σ Ω_p s_p, of mean stresses that were left out of the others
   std::array<OfPoints, sym_size<dim>> Omega_sigma;  ///< Σ Ω_p σ_p
 
   ElementSums() {
@@ -58,12 +59,42 @@ struct ElementSums {
   }
 };
 
+/// Directions that a mean of stress or strain is taken over: those of the plane, of space, or all three of a body of
+/// revolution.
+template <class Basis>
+inline constexpr int mean_directions = is_axisymmetric<Basis> ? 3 : Basis::dim;
+
+/// Places x_i of an element's nodes, a node in each lane, for the parts of momentum that the points of an affine scheme
+/// carry.
+template <class Basis>
+struct NodePlaces {
+  std::array<WideNodal<Basis>, Basis::dim> x;
+
+  NodePlaces(const Mesh<Basis::dim>& mesh, int e) {
+    const auto n = mesh.element_nodes(e);
+    repeat<Basis::dim>(
+        [&](auto j) { x[j] = for_each_point<Basis>(nodal<Basis>([&](int i) { return mesh.nodes[n[i]][j]; })); });
+  }
+};
+/// Of schemes whose points carry their velocity alone.
+struct NoPlaces {};
+
+/// The stress that the nodes feel: σ*, where the points have it.
+template <int Dim>
+inline const std::array<Column, sym_size<Dim>>& felt_stress(const Points<Dim>& points) {
+  return points.sigma_ahead[0].empty() ? points.sigma : points.sigma_ahead;
+}
+
 /// Step 1: m_i += Σ m_p N_i, p_i += Σ m_p v_p N_i, F_i^int += Σ B_iᵀ σ_p Ω_p (eqs 1, 2, 4), and to the radial component
 /// Σ σ_θθ N_i / r Ω_p in a body of revolution. Gravity (eq. 3) is uniform, so F_i^grav = m_i g is formed at the node.
-template <class Basis>
-inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Points<Basis::dim>& points,
-                            const PointRange& range, ElementSums<Basis>& sums) {
+/// With `apart` the mean stress s_p = tr σ_p / d of each point is left out of σ_p and summed up by itself.
+/// NodePlaces instead of NoPlaces: the points bring v_p + C_p (x_i − x_p) in place of v_p.
+template <class Basis, class Places>
+inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Places& places, const Points<Basis::dim>& points,
+                            const PointRange& range, bool apart, ElementSums<Basis>& sums) {
   constexpr int Dim = Basis::dim, components = sym_size<Dim>;
+  constexpr bool affine = !std::is_same_v<Places, NoPlaces>;
+  const auto& felt = felt_stress(points);
   using T = PointBatch<Dim>;
   using W = Wide<Basis>;
   for_each_batch_of_element<T>(range, [&](const auto& p, int) {
@@ -72,12 +103,22 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Points<Ba
     const T volume = p.load(points.volume);
     sums.Omega += volume;
     sums.shift.add_batch(shapes, points, p, volume);
-    const auto sigma_of = make_array<components>([&](auto c) {
+    auto felt_here = make_array<components>([&](auto c) {
       // σ_zz does no work in plane strain. Mandel components of shear are √2 times the stress.
       constexpr bool used = Dim == 3 || c != 2 || is_axisymmetric<Basis>;
-      const T sigma = used ? T(c < 3 ? 1 : 1 / sqrt2) * p.load(points.sigma[c]) : T(0.0);
-      sums.Omega_sigma[c] = fma(volume, sigma, sums.Omega_sigma[c]);
-      return OfPoints<Basis>(volume * sigma);
+      if constexpr (used) return T(c < 3 ? 1 : 1 / sqrt2) * p.load(felt[c]);
+      return T(0.0);
+    });
+    if (apart) {
+      T mean = felt_here[0] + felt_here[1];
+      if constexpr (mean_directions<Basis> == 3) mean += felt_here[2];
+      mean *= T(1.0 / mean_directions<Basis>);
+      repeat<mean_directions<Basis>>([&](auto j) { felt_here[j] -= mean; });
+      sums.Omega_mean = fma(volume, mean, sums.Omega_mean);
+    }
+    const auto sigma_of = make_array<components>([&](auto c) {
+      sums.Omega_sigma[c] = fma(volume, felt_here[c], sums.Omega_sigma[c]);
+      return OfPoints<Basis>(volume * felt_here[c]);
     });
     shapes.with(points, p, [&](const auto& at) {
       for_each_group<Basis>(p, [&](int l) {
@@ -90,7 +131,16 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Points<Ba
           mN[b] = m * here.N[b];
           sums.m[b] += mN[b];
           repeat<Dim>([&](auto j) {
-            sums.p[j][b] = fma(mN[b], v[j], sums.p[j][b]);
+            if constexpr (affine) {
+              W v_at = v[j];
+              repeat<Dim>([&](auto k) {
+                v_at = fma(of_points<Basis>(p, points.C[j * Dim + k]).of(l),
+                           places.x[k][b] - of_points<Basis>(p, points.x[k]).of(l), v_at);
+              });
+              sums.p[j][b] = fma(mN[b], v_at, sums.p[j][b]);
+            } else {
+              sums.p[j][b] = fma(mN[b], v[j], sums.p[j][b]);
+            }
             repeat<Dim>([&](auto k) { sums.F[k][b] = fma(here.B[j][b], sigma[mandel(j, k)], sums.F[k][b]); });
           });
         });
@@ -138,7 +188,8 @@ inline Lane<Basis> load_mass_matrix(const double* M) {
   return Lane<Basis>::load_unaligned(from + b % std::max(1, nodal_batches<Basis> / 2) * W);
 }
 
-/// F_i^int of an element whose points are used by a quadrature of w and s_i.
+/// F_i^int of an element whose points are used by a quadrature of w and s_i; mean stresses that were summed up apart
+/// act on the mean gradient of the element.
 template <class Basis>
 inline std::array<Nodal<Basis>, Basis::dim> internal_force(const ElementSums<Basis>& sums,
                                                            const Quadrature<Basis>& quadrature) {
@@ -147,6 +198,15 @@ inline std::array<Nodal<Basis>, Basis::dim> internal_force(const ElementSums<Bas
   const auto Omega_sigma = make_array<sym_size<Dim>>([&](auto c) { return xsimd::hadd(sums.Omega_sigma[c]); });
   auto F = totals<Basis>(sums.F);
   quadrature.shift.add_force(Omega_sigma, F);
+  if constexpr (has_shift<Basis>) {
+    if (quadrature.means) {
+      const T mean(xsimd::hadd(sums.Omega_mean));
+      repeat<nodal_batches<Basis>>([&](auto b) {
+        repeat<Dim>([&](auto j) { F[j][b] = fma(quadrature.means->gradient[j][b], mean, F[j][b]); });
+        if constexpr (is_axisymmetric<Basis>) F[0][b] = fma(quadrature.means->hoop[0][b], mean, F[0][b]);
+      });
+    }
+  }
   repeat<nodal_batches<Basis>>([&](auto b) {
     if constexpr (is_axisymmetric<Basis>) F[0][b] = fma(quadrature.hoop_shift[0][b], T(Omega_sigma[2]), F[0][b]);
     repeat<Dim>([&](auto j) { F[j][b] *= T(quadrature.weight); });

@@ -23,9 +23,12 @@ struct alignas(8 * std::bit_ceil(unsigned{row_size<2 * Dim>})) Motion {
   double du(int j) const { return row[Dim + j]; }
 };
 
-/// Numbers of a node's momentum side by side.
+/// Numbers side by side for n components of a node in the places of the assembly: 2, 4 or 8.
+template <int n>
+inline constexpr int place_size = static_cast<int>(std::bit_ceil(unsigned{n}));
+/// The most that a step puts there: changes of velocity of two kinds.
 template <int Dim>
-inline constexpr int momentum_size = Dim == 2 ? 2 : 4;
+inline constexpr int momentum_size = place_size<2 * Dim>;
 
 /// Sums over points of what moves, a lane for itself each.
 template <int Dim>
@@ -37,34 +40,38 @@ struct MotionSums {
   MotionSums() { momentum.fill(T(0.0)); }
 };
 
-/// Adds momentum p of an element's local nodes to the places of its nodes.
-template <class Basis>
-inline void momentum_to_places(const std::array<Nodal<Basis>, Basis::dim>& p, const int* place, double* momentum) {
-  constexpr int Dim = Basis::dim, W = lanes_of<Lane<Basis>>;
+/// Adds n components p of an element's local nodes to the places of its nodes.
+template <class Basis, std::size_t n>
+inline void momentum_to_places(const std::array<Nodal<Basis>, n>& p, const int* place, double* momentum) {
+  constexpr int W = lanes_of<Lane<Basis>>, size = place_size<static_cast<int>(n)>;
   repeat<nodal_batches<Basis>>([&](auto b) {
-    std::array<Lane<Basis>, momentum_size<Dim>> of_batch;
-    repeat<momentum_size<Dim>>([&](auto j) { of_batch[j] = j < Dim ? p[j < Dim ? j : 0][b] : Lane<Basis>(0.0); });
+    std::array<Lane<Basis>, size> of_batch;
+    repeat<size>([&](auto j) {
+      constexpr bool used = j < static_cast<int>(n);
+      of_batch[j] = used ? p[used ? j : 0][b] : Lane<Basis>(0.0);
+    });
     add_to_places<std::min(W, Basis::nodes - b * W)>(of_batch, place + b * W, momentum);
   });
 }
 
-/// Steps 4 and 5 for an element that keeps its M_ij: Σ_j M_ij c_j, what the change c_j of the points' velocities adds
-/// to the momentum of local node i (eqs 6, 7; step.cpp), into the places of its nodes.
-template <class Basis>
-inline void add_momentum(const double* M, const NodeRows<Basis>& motion, const int* place, double* momentum) {
-  constexpr int Dim = Basis::dim, K = Basis::nodes, batches = nodal_batches<Basis>;
-  const auto c = make_array<Dim>([&](auto j) { return nodal<Basis>([&](int i) { return motion[i][j]; }); });
-  std::array<Nodal<Basis>, Dim> p;
+/// Σ_j M_ij w_j for n components w of the nodes of an element that keeps its M_ij, into the places of its nodes. With
+/// w = c that is steps 4 and 5: what the change c_j of the points' velocities adds to the momentum of local node i
+/// (eqs 6, 7; step.cpp).
+template <class Basis, int n>
+inline void add_momentum(const double* M, const NodeRows<Basis>& rows, const int* place, double* momentum) {
+  constexpr int K = Basis::nodes, batches = nodal_batches<Basis>;
+  const auto w = make_array<n>([&](auto j) { return nodal<Basis>([&](int i) { return rows[i][j]; }); });
+  std::array<Nodal<Basis>, n> p;
   repeat<mass_matrix_rows(K)>([&](auto k) {
     Nodal<Basis> M_k;  // M_i,i+k
     repeat<batches>([&](auto b) { M_k[b] = load_mass_matrix<Basis, k, b>(M); });
-    repeat<Dim>([&](auto j) {
-      const auto c_k = turned<K, k>(c[j]);
-      repeat<batches>([&](auto b) { p[j][b] = k == 0 ? M_k[b] * c_k[b] : fma(M_k[b], c_k[b], p[j][b]); });
+    repeat<n>([&](auto j) {
+      const auto w_k = turned<K, k>(w[j]);
+      repeat<batches>([&](auto b) { p[j][b] = k == 0 ? M_k[b] * w_k[b] : fma(M_k[b], w_k[b], p[j][b]); });
       if constexpr (k > 0 && 2 * k != K) {  // and M_i,i−k
-        Nodal<Basis> Mc;
-        repeat<batches>([&](auto b) { Mc[b] = M_k[b] * c[j][b]; });
-        const auto from_behind = turned<K, K - k>(Mc);
+        Nodal<Basis> Mw;
+        repeat<batches>([&](auto b) { Mw[b] = M_k[b] * w[j][b]; });
+        const auto from_behind = turned<K, K - k>(Mw);
         repeat<batches>([&](auto b) { p[j][b] += from_behind[b]; });
       }
     });
@@ -72,27 +79,26 @@ inline void add_momentum(const double* M, const NodeRows<Basis>& motion, const i
   momentum_to_places<Basis>(p, place, momentum);
 }
 
-/// The same for an element that does not: Σ_p m_p N_i Σ_j N_j c_j, through its points.
-template <class Basis>
+/// The same for an element that does not: Σ_p m_p N_i Σ_j N_j w_j, through its points.
+template <class Basis, int n>
 inline void add_momentum(const typename Basis::Cell& cell, const Points<Basis::dim>& points, const PointRange& range,
-                         const NodeRows<Basis>& motion, const int* place, double* momentum) {
-  constexpr int Dim = Basis::dim;
-  using T = PointBatch<Dim>;
+                         const NodeRows<Basis>& rows, const int* place, double* momentum) {
+  using T = PointBatch<Basis::dim>;
   const ShapesAtPoints<Basis> shapes(cell);
-  const Field<Basis, Dim> c(cell, motion);
-  std::array<WideNodal<Basis>, Dim> sums;
-  repeat<Dim>([&](auto j) { clear<Basis>(sums[j]); });
+  const Field<Basis, n, Rows::just> w(cell, rows);
+  std::array<WideNodal<Basis>, n> sums;
+  repeat<n>([&](auto j) { clear<Basis>(sums[j]); });
   for_each_batch_of_element<T>(range, [&](const auto& p, int) {
     const auto local = local_coordinates<Basis>(cell, points, p);
-    const auto here = c.at(local);
+    const auto here = w.at(local);
     const T m = p.load(points.mass);
-    const auto mc_of = make_array<Dim>([&](auto j) { return OfPoints<Basis>(m * here.value(j)); });
+    const auto mw_of = make_array<n>([&](auto j) { return OfPoints<Basis>(m * here.value(j)); });
     shapes.with(points, p, [&](const auto& at) {
       for_each_group<Basis>(p, [&](int l) {
         const auto N = at(l).N;
-        repeat<Dim>([&](auto j) {
-          const auto mc = mc_of[j].of(l);
-          repeat<nodal_batches<Basis>>([&](auto b) { sums[j][b] = fma(mc, N[b], sums[j][b]); });
+        repeat<n>([&](auto j) {
+          const auto mw = mw_of[j].of(l);
+          repeat<nodal_batches<Basis>>([&](auto b) { sums[j][b] = fma(mw, N[b], sums[j][b]); });
         });
       });
     });
@@ -104,10 +110,19 @@ inline void add_momentum(const typename Basis::Cell& cell, const Points<Basis::d
 template <class Basis>
 struct ElementMotion {
   NodeRows<Basis> motion;              ///< Motion of each local node
-  NodeRows<Basis> a_dt;                ///< a_i dt of each; only where there is a PIC share
+  NodeRows<Basis> a_dt;                ///< change of velocity of pure FLIP of each; only where there is a PIC share
   const double* shift;                 ///< Shift of its quadrature, as stored
   double weight, size;                 ///< w of its quadrature, and its least height
   const double* hoop_shift = nullptr;  ///< that of N_i / r, in a body of revolution
+  bool mean_dilatation = false;        ///< is the volume strain of its points their mean?
+};
+
+/// How points are moved and strained.
+struct MotionRules {
+  double flip = 1;      ///< φ
+  bool middle = false;  ///< strain of the middle of the step
+  bool affine = false;  ///< points keep the gradient of their velocity, C_p
+  double dt = 0;        ///< [s]; asked for with `affine`
 };
 
 /// Strain increment of the circumference at distance r from the axis, where the radial displacement is du:
@@ -119,14 +134,58 @@ inline T hoop_strain(const ElementMotion<Basis>& element, const T& du, const T& 
   return du / r + T(shifted);
 }
 
+/// L dt at points, from the displacements of the nodes and their corrected gradients; and the strain increment of the
+/// circumference.
+template <class T, int Dim>
+struct Gradients {
+  std::array<std::array<T, Dim>, Dim> L;
+  T hoop = T(0.0);
+
+  T trace() const {
+    T sum = L[0][0];
+    repeat<Dim - 1>([&](auto j) { sum += L[j + 1][j + 1]; });
+    return sum + hoop;
+  }
+};
+
+template <class Basis, class Shifted, class Motion, class Here, class Local, class T>
+inline Gradients<T, Basis::dim> gradients_at(const ElementMotion<Basis>& element, const Shifted& shifted,
+                                             const Motion& motion, const Here& here, const Local& local, const T& r) {
+  constexpr int Dim = Basis::dim;
+  Gradients<T, Dim> g;
+  if constexpr (is_axisymmetric<Basis>) g.hoop = hoop_strain<Basis>(element, here.value(Dim), r);
+  repeat<Dim>([&](auto j) {
+    repeat<Dim>([&](auto k) { g.L[j][k] = shifted.template derivative<j, k>(motion, here, local); });
+  });
+  return g;
+}
+
+/// Σ du_i · B̄_i of an element of mean dilatation, in a body of revolution with the mean of N_i / r, too.
+template <class Basis>
+inline double mean_dilation(const typename Basis::Cell& cell, const NodeRows<Basis>& motion) {
+  constexpr int Dim = Basis::dim;
+  const Means<Basis> mean(cell);
+  Lane<Basis> sum(0.0);
+  repeat<Dim>([&](auto j) {
+    const auto du = nodal<Basis>([&](int i) { return motion[i][Dim + j]; });
+    repeat<nodal_batches<Basis>>([&](auto b) {
+      sum = fma(du[b], mean.gradient[j][b], sum);
+      if constexpr (is_axisymmetric<Basis>) {
+        if constexpr (j == 0) sum = fma(du[b], mean.hoop[0][b], sum);
+      }
+    });
+  });
+  return xsimd::hadd(sum);
+}
+
 /// Steps 4 (eq. 6: v_p = φ v_p + Σ c_i N_i; step.cpp), 6, 8, 9 and 10: L dt = Σ du_i ⊗ B_i (eq. 9), strain and
 /// spin increments (eqs 10, 11) to `strains` from place `at` on, volume by det(I + L dt) (eq. 14 in its finite form;
 /// the density of eq. 15 is m_p / Ω_p), and position (eqs 17–19; the displacement is x_p less x_p at the start). Then
 /// moved(lanes, x, motion there before) for each batch.
 template <bool pic, class Basis, class F>
-inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotion<Basis>& element, double flip,
-                            Points<Basis::dim>& points, const PointRange& range, Strains<Basis::dim>& strains, int at,
-                            MotionSums<Basis::dim>& sums, F&& moved) {
+inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotion<Basis>& element,
+                            const MotionRules& rules, Points<Basis::dim>& points, const PointRange& range, double mean,
+                            Strains<Basis::dim>& strains, int at, MotionSums<Basis::dim>& sums, F&& moved) {
   constexpr int Dim = Basis::dim;
   using T = PointBatch<Dim>;
   const Field<Basis, 2 * Dim> motion(cell, element.motion);
@@ -139,11 +198,10 @@ inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotio
     const auto here = motion.at(local);
     const T m = p.load(points.mass);
     std::array<T, Dim> x;
-    std::array<std::array<T, Dim>, Dim> L;  // L dt
-    T v2(0.0), hoop(0.0);
-    if constexpr (is_axisymmetric<Basis>) hoop = hoop_strain<Basis>(element, here.value(Dim), p.load(points.x[0]));
+    T v2(0.0);
+    auto g = gradients_at<Basis>(element, shifted, motion, here, local, p.load(points.x[0]));
     repeat<Dim>([&](auto j) {
-      const T v_t = p.load(points.v[j]), v = fma(T(flip), v_t, here.value(j));
+      const T v_t = p.load(points.v[j]), v = fma(T(rules.flip), v_t, here.value(j));
       p.store(v, points.v[j]);
       v2 = fma(v, v, v2);
       sums.momentum[j] = fma(m, v, sums.momentum[j]);
@@ -153,17 +211,34 @@ inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotio
       }
       x[j] = p.load(points.x[j]) + here.value(Dim + j);
       p.store(x[j], points.x[j]);
-      repeat<Dim>([&](auto k) { L[j][k] = shifted.template derivative<j, k>(motion, here, local); });
     });
+    if constexpr (pic) {
+      if (rules.affine) {
+        repeat<Dim>([&](auto j) {
+          repeat<Dim>(
+              [&](auto k) { p.store(here.template derivative<k>(Dim + j) * T(1 / rules.dt), points.C[j * Dim + k]); });
+        });
+      }
+    }
     sums.mass += m;
     sums.kinetic_energy = fma(m, v2, sums.kinetic_energy);
     sums.fastest2 = max(sums.fastest2, select(m > T(0.0), v2, T(0.0)));  // lanes without a point have any v
-    const T Omega = p.load(points.volume) * determinant_of_stretch(L) * (T(1.0) + hoop);
+    if constexpr (has_shift<Basis>) {
+      if (element.mean_dilatation) {
+        const T more = (T(mean) - g.trace()) * T(1.0 / mean_directions<Basis>);
+        repeat<Dim>([&](auto j) { g.L[j][j] += more; });
+        if constexpr (is_axisymmetric<Basis>) g.hoop += more;
+      }
+    }
+    const T Omega = p.load(points.volume) * determinant_of_stretch(g.L) * (T(1.0) + g.hoop);
     p.store(Omega, points.volume);
-    store_strains<Dim>(L, hoop, strains, at + first);
-    T dilation = L[0][0];
-    repeat<Dim - 1>([&](auto j) { dilation += L[j + 1][j + 1]; });
-    if constexpr (is_axisymmetric<Basis>) dilation += hoop;
+    const T dilation = g.trace();
+    if (rules.middle) {
+      store_strains<Dim>(of_middle(g.L), g.hoop / fma(T(0.5), g.hoop, T(1.0)), strains, at + first);
+      turn_to_end<Dim, T>(strains, at + first);
+    } else {
+      store_strains<Dim>(g.L, g.hoop, strains, at + first);
+    }
     (T(w) * Omega * (T(1.0) - T(0.5) * dilation)).store_unaligned(strains.volume.data() + at + first);
     (T(stiffer) * Omega / m).store_unaligned(strains.per_mass.data() + at + first);
     (T(per_size2) * v2).store_unaligned(strains.speed2.data() + at + first);

@@ -66,15 +66,37 @@ struct AlongAxis {
   std::vector<double> value, slope;
 };
 
-/// `half` is half the edge of the point's domain [m], for GIMP. At a line between cells the cell `at` decides the
-/// slope.
+/// The parabola that a B-spline is in the cell `at`, at any u: through three of its points there.
+inline std::array<double, 2> parabola_of(const std::vector<double>& t, int i, int at, double u) {
+  std::array<double, 2> sum{};
+  for (int a = 0; a < 3; ++a) {
+    double value = cox_de_boor(t, i, 2, at + 0.25 * (a + 1)), slope = 0;
+    const double x = 4 * (u - at) - 1;  // 0, 1, 2 at the three
+    const double b = (a + 1) % 3, c = (a + 2) % 3, scale = 1 / ((a - b) * (a - c));
+    slope = 4 * value * scale * (2 * x - b - c);
+    value *= scale * (x - b) * (x - c);
+    sum[0] += value;
+    sum[1] += slope;
+  }
+  return sum;
+}
+
+/// `half` is half the edge of the point's domain [m], for GIMP. At a line between cells the cell `at` decides the slope;
+/// beyond its cell a point has what the functions of the cell go on to.
 inline AlongAxis functions_along_axis(GridFunctions functions, int n, double h, double u, double half, int at) {
   AlongAxis all;
   if (functions == GridFunctions::b_spline) {
     const auto t = open_knots(n);
     // A point beyond the grid's side by round-off belongs to the last cell.
     const double inside = std::clamp(u, 0.0, static_cast<double>(n));
+    const bool beyond = inside < at || inside > at + 1;
     for (int i = 0; i < n + 2; ++i) {
+      if (beyond) {
+        const auto [value, slope] = parabola_of(t, i, at, inside);
+        all.value.push_back(std::abs(i - at - 1) <= 1 ? value : 0);
+        all.slope.push_back(std::abs(i - at - 1) <= 1 ? slope / h : 0);
+        continue;
+      }
       all.value.push_back(cox_de_boor(t, i, 2, inside));
       all.slope.push_back(cox_de_boor_slope(t, i, 2, inside) / h);
     }
@@ -84,7 +106,8 @@ inline AlongAxis functions_along_axis(GridFunctions functions, int n, double h, 
   if (functions == GridFunctions::gimp) l = std::max(0.0, std::min({half / h, 0.5, u, n - u}));
   for (int i = 0; i <= n; ++i) {
     const double straight = i == at ? -1 : i == at + 1 ? 1 : 0;  // in the cell
-    const auto [value, slope] = l > 0 ? averaged_hat(i, u, l) : std::array{hat(i, u), straight};
+    const double line = i == at ? 1 - (u - at) : i == at + 1 ? u - at : 0;
+    const auto [value, slope] = l > 0 ? averaged_hat(i, u, l) : std::array{line, straight};
     all.value.push_back(value);
     all.slope.push_back(slope / h);
   }
