@@ -69,6 +69,8 @@ class Search {
   std::optional<Vector6> from(const Vector6& d) const;
   /// Size of the strain that elastic soil would meet b with.
   double elastic_strain() const { return weight_.cwiseProduct(b_).norm(); }
+  /// Of elastic soil, for the rounding of the stress: a b that asks for less is met by doing nothing.
+  double rounding_strain() const { return scales_.rounding / scales_.stiffness; }
 
  private:
   struct Point {
@@ -127,6 +129,7 @@ class Constrained {
   struct Start {
     Sym<double, 6> strain;  ///< of the whole increment, as the present rate would have it
     double work;            ///< second-order, dσ:dε/‖dε‖² [stress]
+    double softness;        ///< strain over that of elastic soil
   };
   /// None where no strain meets the constraints.
   std::optional<Start> start(const Soil& soil) const {
@@ -135,7 +138,9 @@ class Constrained {
     const auto strain = strain_of<ModifiedEuler>(soil, share, 1e-4);
     if (!strain) return {};
     const auto stress = as_sym(answer<ModifiedEuler>(soil, as_vector(*strain), share, 1e-4).stress);
-    return Start{(1 / little) * *strain, dot(stress, *strain) / std::max(dot(*strain, *strain), 1e-300)};
+    const double elastic = Search(c_, little * b_, {}, scales(soil, 1e-4)).elastic_strain();
+    return Start{(1 / little) * *strain, dot(stress, *strain) / std::max(dot(*strain, *strain), 1e-300),
+                 norm(*strain) / elastic};
   }
 
   /// The strain of a share of the increment: at the present rate, or of a law's own update over that share. None where
@@ -145,6 +150,7 @@ class Constrained {
     const Search search(
         c_, share.value * b_, [&](const Vector6& d) { return answer<Pair>(soil, d, share, tolerance); },
         scales(soil, tolerance));
+    if (share.value < 1 && search.elastic_strain() < 100 * search.rounding_strain()) return {};
     for (const auto& guess : guesses_) {
       const auto found = search.from(share.value * as_vector(guess));
       if (found && (TimeDependent<Model> || found->norm() <= softest * search.elastic_strain())) return as_sym(*found);

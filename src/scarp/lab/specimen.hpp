@@ -180,17 +180,24 @@ class Specimen {
       report.end = IntegrationEnd::unstable;
       return outcome(report);
     }
-    const auto start = law.start(soil_);
-    // Close to a limit point the strain for the next bit of stress grows without bounds.
-    if (!start || norm(start->strain) > 100 * norm(last_) ||
-        (HasUpdate<Model> && report.end == IntegrationEnd::unstable))
-      return no_solution(report.reached);
+    if (at_limit_point(law, report)) return no_solution(report.reached);
     return outcome(report);
   }
 
-  static Step no_solution(double reached) {
+  /// Did the integration give up because no strain is left that meets the constraints? Close to a limit point that for
+  /// the next bit of stress grows without bounds.
+  bool at_limit_point(const Law& law, const IntegrationReport& report) const {
+    if (HasUpdate<Model> && report.end == IntegrationEnd::unstable) return true;
+    const auto start = law.start(soil_);
+    return !start || norm(start->strain) > 100 * norm(last_) || (!TimeDependent<Model> && start->softness > 1000);
+  }
+
+  Step no_solution(double reached) const {
+    bool stress = false;  // is one driven?
+    for (int row = 0; row < 6; ++row) stress = stress || (leg_b_[row] != 0 && !constraints_->S.row(row).isZero(0));
     return {0, reached, "no strain meets the constraints, the soil has come to a limit point",
-            "a stress that the soil cannot carry cannot be prescribed: prescribe a strain there"};
+            stress ? "a stress that the soil cannot carry cannot be prescribed: prescribe a strain there"
+                   : "at the stresses held the soil fails faster than it is strained: hold strains in their place"};
   }
 
   static Step outcome(const IntegrationReport& report) {
