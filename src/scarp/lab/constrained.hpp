@@ -1,15 +1,21 @@
 // A soil under six linear constraints on its strain and stress increments, as a law of its own: what the integrators
-// drive is then the share of a stage, not a strain. At every state the strain rate is found that meets
-// E·ε̇ + S·σ̇ = b, so that the constraints hold along the whole increment and not only at its ends.
+// drive is then the share of a stage, not a strain. For a law of rates the strain rate is found at every state that
+// meets E·ε̇ + S·σ̇ = b, so that the constraints hold along the whole increment and not only at its ends; for a law with
+// an update of its own the strain of every substep, E·Δε + S·Δσ = b, so that they hold at the end of each.
 #pragma once
 
 #include <Eigen/Dense>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "scarp/lab/test.hpp"
 #include "scarp/material/increment.hpp"
+#include "scarp/material/integrate/embedded.hpp"
 #include "scarp/material/state.hpp"
 
 namespace scarp::lab {
@@ -37,12 +43,53 @@ struct ConstraintMatrices {
   }
 };
 
-/// Solves J x = b by rows of equal size; the shortest solution where several remain.
-Vector6 solve_scaled(const Matrix6& J, const Vector6& b);
+/// What a strain does to the soil: the change of stress (NaN where it cannot be told), and whether the law answers.
+struct Answer {
+  Vector6 stress;
+  bool sound;
+};
 
-/// Is `residual` nothing but rounding beside the terms it is the sum of?
-bool is_rounding(const Vector6& residual, const ConstraintMatrices& c, const Vector6& eps, double stress,
-                 const Vector6& b);
+/// Newton's method for the strain d that meets E·d + S·Δσ(d) = b, where Δσ(d) is the soil's answer. Residuals of stress
+/// are measured by what the strain makes of elastic soil, never by Δσ: that is the difference of an elastic and a
+/// plastic part, and vanishes at critical state and in perfect plasticity while its rounding does not.
+class Search {
+ public:
+  struct Scales {
+    double stiffness;   ///< of elastic soil [stress]
+    double rounding;    ///< of the stress that Δσ is a change of [stress]
+    double coarse;      ///< a relative residual that will do where it falls no further
+    double difference;  ///< of strains for the derivatives, relative
+    double smallest;    ///< and absolute
+  };
+
+  Search(const ConstraintMatrices& constraints, const Vector6& b, std::function<Answer(const Vector6&)> response,
+         const Scales& scales);
+
+  /// The answer that the search from d leads to; none where it leads to none.
+  std::optional<Vector6> from(const Vector6& d) const;
+  /// Size of the strain that elastic soil would meet b with.
+  double elastic_strain() const { return weight_.cwiseProduct(b_).norm(); }
+  /// Of elastic soil, for the rounding of the stress: a b that asks for less is met by doing nothing.
+  double rounding_strain() const { return scales_.rounding / scales_.stiffness; }
+
+ private:
+  struct Point {
+    Vector6 d, stress, residual;
+    double merit;  ///< ‖residual‖ as a strain
+    bool sound;
+  };
+  Point at(const Vector6& d) const;
+  /// Is the residual no more than `share` of the terms that it is the sum of, or rounding?
+  bool met(const Point& point, double share) const;
+  std::optional<Point> next(const Point& point, bool downhill) const;
+  Matrix6 tangent(const Point& point) const;
+
+  const ConstraintMatrices& c_;
+  Vector6 b_;
+  std::function<Answer(const Vector6&)> response_;
+  Scales scales_;
+  Vector6 weight_;  ///< of the residuals in the merit
+};
 
 /// A share of an increment of a stage.
 struct Share {
@@ -78,10 +125,35 @@ class Constrained {
               std::vector<Sym<double, 6>> guesses)
       : model_(model), c_(constraints), b_(b), dt_(dt), guesses_(std::move(guesses)) {}
 
-  /// The strain of the whole increment, as the present rate would have it; none where no strain meets the constraints.
-  std::optional<Sym<double, 6>> strain(const Soil& soil) const {
+  /// How the increment starts.
+  struct Start {
+    Sym<double, 6> strain;  ///< of the whole increment, as the present rate would have it
+    double work;            ///< second-order, dσ:dε/‖dε‖² [stress]
+    double softness;        ///< strain over that of elastic soil
+  };
+  /// None where no strain meets the constraints.
+  std::optional<Start> start(const Soil& soil) const {
+    constexpr double little = HasUpdate<Model> ? 1e-4 : 1.0;
+    const Share share{little};
+    const auto strain = strain_of<ModifiedEuler>(soil, share, 1e-4);
+    if (!strain) return {};
+    const auto stress = as_sym(answer<ModifiedEuler>(soil, as_vector(*strain), share, 1e-4).stress);
+    const double elastic = Search(c_, little * b_, {}, scales(soil, 1e-4)).elastic_strain();
+    return Start{(1 / little) * *strain, dot(stress, *strain) / std::max(dot(*strain, *strain), 1e-300),
+                 norm(*strain) / elastic};
+  }
+
+  /// The strain of a share of the increment: at the present rate, or of a law's own update over that share. None where
+  /// no strain meets the constraints.
+  template <class Pair>
+  std::optional<Sym<double, 6>> strain_of(const Soil& soil, const Share& share, double tolerance) const {
+    const Search search(
+        c_, share.value * b_, [&](const Vector6& d) { return answer<Pair>(soil, d, share, tolerance); },
+        scales(soil, tolerance));
+    if (share.value < 1 && search.elastic_strain() < 100 * search.rounding_strain()) return {};
     for (const auto& guess : guesses_) {
-      if (const auto found = search(soil, as_vector(guess))) return as_sym(*found);
+      const auto found = search.from(share.value * as_vector(guess));
+      if (found && (TimeDependent<Model> || found->norm() <= softest * search.elastic_strain())) return as_sym(*found);
     }
     return {};
   }
@@ -89,6 +161,24 @@ class Constrained {
   /// The soil's answer to a strain rate.
   Rate<Soil, double> soil_rate(const Soil& soil, const Sym<double, 6>& strain) const {
     return rate_of(model_, soil, Increment<double, 6>{strain, dt_});
+  }
+
+  /// One substep of a law with an update of its own, along a straight strain.
+  template <class Pair>
+  Trial<State<double, 6>, double> step(const State<double, 6>& s, const Share& share, double tolerance) const {
+    const auto found = strain_of<Pair>(s.soil, share, tolerance);
+    const auto strain = found.value_or(Sym<double, 6>::zero());
+    const auto soil = attempt<Pair>(model_, s.soil, Increment<double, 6>{strain, share.value * dt_}, tolerance);
+    Trial<State<double, 6>, double> trial{{soil.state, s.eps + strain}, soil.error, soil.notes};
+    trial.notes.sound = soil.notes.sound && found.has_value();
+    return trial;
+  }
+
+  /// The same for a law that advances by the pair that the integration chose.
+  template <class Pair>
+  Trial<State<double, 6>, double> update(const State<double, 6>& s, const Share& share, double tolerance) const requires
+      UpdatesByPair<Model, Pair, Soil, Increment<double, 6>> {
+    return step<Pair>(s, share, tolerance);
   }
 
   bool admissible(const State<double, 6>& s) const { return model_.admissible(s.soil); }
@@ -99,41 +189,31 @@ class Constrained {
   bool idle() const { return b_.isZero(0) && (!TimeDependent<Model> || dt_ == 0); }
 
  private:
-  /// Newton's iteration. A rate-independent law is linear in the strain rate on each of its branches (elastic,
-  /// plastic), so it ends after a few: with an answer on the branch that it assumed, or going round between branches,
-  /// none of which answers.
-  std::optional<Vector6> search(const Soil& soil, Vector6 d) const {
-    for (int i = 0; i < 30; ++i) {
-      const auto at = soil_rate(soil, as_sym(d));
-      const Vector6 sigma = as_vector(at.change.sigma);
-      const Vector6 residual = c_.E * d + c_.S * sigma - b_;
-      if (!residual.allFinite()) return {};
-      if (is_rounding(residual, c_, d, stress_size(soil, d, sigma), b_)) {
-        if (at.sound) return d;
-        return {};
-      }
-      d -= solve_scaled(c_.E + c_.S * tangent(soil, d, sigma), residual);
+  /// More strain than this many times that of elastic soil is none: what meets a stress beyond the strength by it does
+  /// so by rounding.
+  static constexpr double softest = 1e5;
+
+  template <class Pair>
+  Answer answer(const Soil& soil, const Vector6& strain, const Share& share, double tolerance) const {
+    const Increment<double, 6> increment{as_sym(strain), share.value * dt_};
+    if constexpr (HasUpdate<Model>) {
+      const auto trial = attempt<Pair>(model_, soil, increment, tolerance);
+      if (!trial.notes.sound) return {Vector6::Constant(std::numeric_limits<double>::quiet_NaN()), false};
+      return {as_vector(trial.state.sigma - soil.sigma), true};
+    } else {
+      const auto rate = rate_of(model_, soil, increment);
+      return {as_vector(rate.change.sigma), static_cast<bool>(rate.sound)};
     }
-    return {};
   }
 
-  /// What the rounding of σ̇ is measured by. Creep of a law that depends on time has σ̇ = 0 as the difference of elastic
-  /// stresses that are not.
-  double stress_size(const Soil& soil, const Vector6& d, const Vector6& sigma) const {
-    if constexpr (TimeDependent<Model>) return std::max(sigma.norm(), model_.p_wave_modulus(soil) * d.norm());
-    return sigma.norm();
-  }
-
-  /// ∂σ̇/∂ε̇ by differences, exact but for rounding on a linear branch.
-  Matrix6 tangent(const Soil& soil, const Vector6& d, const Vector6& sigma) const {
-    const double h = std::max(1e-7 * d.norm(), 1e-10);
-    Matrix6 D;
-    for (int i = 0; i < 6; ++i) {
-      Vector6 moved = d;
-      moved[i] += h;
-      D.col(i) = (as_vector(soil_rate(soil, as_sym(moved)).change.sigma) - sigma) / h;
+  Search::Scales scales(const Soil& soil, double tolerance) const {
+    const double stiffness = model_.p_wave_modulus(soil);
+    if constexpr (HasUpdate<Model>) {
+      const double rounding = 64 * std::numeric_limits<double>::epsilon() * norm(soil.sigma);
+      return {stiffness, rounding, std::min(1e-8, tolerance), 1e-6, 1e5 * rounding / stiffness + 1e-13};
+    } else {
+      return {stiffness, 0.0, 1e-9, 1e-7, 1e-10};
     }
-    return D;
   }
 
   const Model& model_;
@@ -147,13 +227,19 @@ template <class Model>
 Rate<typename Constrained<Model>::template State<double, 6>, double> rate_of(
     const Constrained<Model>& law, const typename Constrained<Model>::template State<double, 6>& s,
     const Share& share) {
-  const auto whole = law.strain(s.soil);
+  const auto whole = law.template strain_of<ModifiedEuler>(s.soil, Share{1}, 1e-4);
   const auto strain = whole.value_or(Sym<double, 6>::zero());
   auto soil = law.soil_rate(s.soil, strain);
   Rate<typename Constrained<Model>::template State<double, 6>, double> r{{soil.change, strain},
                                                                          whole.has_value() && soil.sound};
   for_each_component([&](double& x) { x *= share.value; }, r.change);
   return r;
+}
+
+template <class Model>
+auto updated(const Constrained<Model>& law, const typename Constrained<Model>::template State<double, 6>& s,
+             const Share& share, double tolerance) requires HasUpdate<Model> {
+  return law.template step<ModifiedEuler>(s, share, tolerance);
 }
 
 template <class Model>

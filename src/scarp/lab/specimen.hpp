@@ -82,11 +82,7 @@ class Specimen {
     const Vector6 wanted = leg_start_ + leg_b_ * ((done_ + 1.0) / count_);
     const Vector6 b = wanted - constraints_->value(eps_, soil_.sigma);
     ++done_;
-    if constexpr (HasUpdate<Model>) {
-      return whole_increment(b);
-    } else {
-      return along_rates(b);
-    }
+    return increment(b);
   }
 
   /// time, eps, sigma, p, q, theta, eps_v, eps_q, u, derived fields, state scalars, state tensors.
@@ -143,18 +139,14 @@ class Specimen {
   /// it unloads, the answer with the larger second-order work dσ:dε.
   std::optional<Sym<double, 6>> stable_start(const Vector6& b) const {
     std::optional<Sym<double, 6>> best;
-    if constexpr (!HasUpdate<Model>) {
-      double most = 0;
-      for (const auto& guess : guesses()) {
-        const Law law(model_, *constraints_, b, leg_dt_, {guess});
-        const auto found = law.strain(soil_);
-        if (!found) continue;
-        const double size2 = std::max(dot(*found, *found), 1e-300);
-        const double work = dot(law.soil_rate(soil_, *found).change.sigma, *found) / size2;
-        if (!best || work > most * (1 + 1e-6)) {
-          best = found;
-          most = work;
-        }
+    double most = 0;
+    for (const auto& guess : guesses()) {
+      const Law law(model_, *constraints_, b, leg_dt_, {guess});
+      const auto found = law.start(soil_);
+      if (!found) continue;
+      if (!best || found->work > most * (1 + 1e-6)) {
+        best = found->strain;
+        most = found->work;
       }
     }
     return best;
@@ -162,18 +154,20 @@ class Specimen {
 
   /// Does the soil itself have no answer to some strain, whatever the constraints?
   bool is_unstable(const Law& law) const {
-    for (const auto& strain : guesses()) {
-      if (!law.soil_rate(soil_, strain).sound) return true;
+    if constexpr (HasUpdate<Model>) {
+      return false;  // a law is not accepted with constants that make it so
+    } else {
+      const auto all = guesses();
+      return !std::all_of(all.begin(), all.end(), [&](const auto& d) { return law.soil_rate(soil_, d).sound; });
     }
-    return false;
   }
 
-  /// The constraints met at every state along the increment.
-  Step along_rates(const Vector6& b) {
+  /// The next increment, to the value b of the constraints.
+  Step increment(const Vector6& b) {
     const Law law(model_, *constraints_, b, leg_dt_, guesses());
     typename Law::template State<double, 6> s{soil_, eps_};
-    const auto report = scheme_ == Scheme::dormand_prince ? integrate<DormandPrince>(law, s, Share{1.0}, settings_)
-                                                          : integrate<ModifiedEuler>(law, s, Share{1.0}, settings_);
+    auto report = scheme_ == Scheme::dormand_prince ? integrate<DormandPrince>(law, s, Share{1.0}, settings_)
+                                                    : integrate<ModifiedEuler>(law, s, Share{1.0}, settings_);
     const auto moved = s.eps - eps_;
     soil_ = s.soil;
     eps_ = s.eps;
@@ -183,61 +177,27 @@ class Specimen {
       return outcome(report);
     }
     if (is_unstable(law)) {
-      auto unstable = report;
-      unstable.end = IntegrationEnd::unstable;
-      return outcome(unstable);
+      report.end = IntegrationEnd::unstable;
+      return outcome(report);
     }
-    const auto strain = law.strain(soil_);
-    // Close to a limit point the strain for the next bit of stress grows without bounds.
-    if (!strain || norm(*strain) > 100 * norm(last_)) return no_solution(report.reached);
+    if (at_limit_point(law, report)) return no_solution(report.reached);
     return outcome(report);
   }
 
-  /// A law with an update of its own: the constraints met at the end of the increment, along a straight strain.
-  Step whole_increment(const Vector6& b) {
-    Vector6 d = as_vector(last_);
-    for (int i = 0; i < 60; ++i) {
-      Soil end = soil_;
-      const auto report = integrate_soil(end, {as_sym(d), leg_dt_});
-      if (report.end != IntegrationEnd::done) break;
-      const Vector6 dsigma = as_vector(end.sigma - soil_.sigma);
-      const Vector6 residual = constraints_->E * d + constraints_->S * dsigma - b;
-      if (!residual.allFinite()) break;
-      if (is_met(residual, d, dsigma, b)) {
-        soil_ = end;
-        eps_ = eps_ + as_sym(d);
-        time_ += leg_dt_;
-        last_ = as_sym(d);
-        return outcome(report);
-      }
-      d -= solve_scaled(constraints_->E + constraints_->S * secant(d, dsigma), residual);
-    }
-    return no_solution(0);
+  /// Did the integration give up because no strain is left that meets the constraints? Close to a limit point that for
+  /// the next bit of stress grows without bounds.
+  bool at_limit_point(const Law& law, const IntegrationReport& report) const {
+    if (HasUpdate<Model> && report.end == IntegrationEnd::unstable) return true;
+    const auto start = law.start(soil_);
+    return !start || norm(start->strain) > 100 * norm(last_) || (!TimeDependent<Model> && start->softness > 1000);
   }
 
-  /// To the tolerance of the integration, beside the whole stress where the increment is small.
-  bool is_met(const Vector6& residual, const Vector6& d, const Vector6& dsigma, const Vector6& b) const {
-    const Vector6 size = constraints_->E.rowwise().norm() * (d.norm() + 1e-12) +
-                         constraints_->S.rowwise().norm() * (dsigma.norm() + 1e-6 * norm(soil_.sigma)) + b.cwiseAbs();
-    return ((residual.cwiseAbs() - std::min(1e-8, settings_.tolerance) * size).array() <= 0).all();
-  }
-
-  Matrix6 secant(const Vector6& d, const Vector6& dsigma) const {
-    const double h = std::max(1e-5 * d.norm(), 1e-9);
-    Matrix6 D;
-    for (int i = 0; i < 6; ++i) {
-      Vector6 moved = d;
-      moved[i] += h;
-      Soil end = soil_;
-      integrate_soil(end, {as_sym(moved), leg_dt_});
-      D.col(i) = (as_vector(end.sigma - soil_.sigma) - dsigma) / h;
-    }
-    return D;
-  }
-
-  static Step no_solution(double reached) {
+  Step no_solution(double reached) const {
+    bool stress = false;  // is one driven?
+    for (int row = 0; row < 6; ++row) stress = stress || (leg_b_[row] != 0 && !constraints_->S.row(row).isZero(0));
     return {0, reached, "no strain meets the constraints, the soil has come to a limit point",
-            "a stress that the soil cannot carry cannot be prescribed: prescribe a strain there"};
+            stress ? "a stress that the soil cannot carry cannot be prescribed: prescribe a strain there"
+                   : "at the stresses held the soil fails faster than it is strained: hold strains in their place"};
   }
 
   static Step outcome(const IntegrationReport& report) {
