@@ -47,6 +47,7 @@ REGISTER_TYPED_TEST_SUITE_P(Conformance, DescribesItself, ZeroIncrementChangesNo
                             BatchGivesWhatDoubleGives, WaveModulusIsTheStiffnessOfUnloading,
                             RateIsHomogeneousOfDegreeOne, TimeAloneMattersOnlyToLawsThatDependOnIt,
                             IncrementsOfHalfTheSizeAgree, ConstantsAtAndBeyondTheirBounds, LanesInDifferentBranches,
-                            StateComesBackFromItsColumns, PlasticStrainDissipates, RateIsTheDerivativeOfTheIncrement);
+                            StateComesBackFromItsColumns, PlasticStrainDissipates, WhatOpensClosesFirst,
+                            RateIsTheDerivativeOfTheIncrement);
 
 }  // namespace scarp::test

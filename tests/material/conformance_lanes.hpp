@@ -6,22 +6,6 @@
 
 namespace scarp::test {
 
-/// States of several doubles, one in each lane.
-template <class Model, int N>
-auto packed(const std::array<typename Model::template State<double, N>, batch_lanes>& s) {
-  typename Model::template State<Batch, N> many;
-  std::size_t c = 0;
-  for_each_component(
-      [&](Batch& x) {
-        std::array<double, batch_lanes> values;
-        for (std::size_t i = 0; i < batch_lanes; ++i) values[i] = components(s[i])[c];
-        x = pack(values);
-        ++c;
-      },
-      many);
-  return many;
-}
-
 template <int N, class Fixture>
 void expect_batch_is_double(Fixture& f) {
   using Model = decltype(f.model_);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
+#include "scarp/material/state.hpp"
 #include "scarp/tensor/batch.hpp"
 #include "scarp/tensor/sym.hpp"
 
@@ -30,6 +32,26 @@ Sym<Batch, N> pack(const std::array<Sym<double, N>, batch_lanes>& tensors) {
     r[c] = pack(values);
   }
   return r;
+}
+
+/// States of several doubles, one in each lane.
+template <class Model, int N>
+auto packed(const std::array<typename Model::template State<double, N>, batch_lanes>& s) {
+  typename Model::template State<Batch, N> many;
+  std::array<std::vector<double>, batch_lanes> columns;
+  for (std::size_t i = 0; i < batch_lanes; ++i) {
+    for_each_component([&](const double& x) { columns[i].push_back(x); }, s[i]);
+  }
+  std::size_t c = 0;
+  for_each_component(
+      [&](Batch& x) {
+        std::array<double, batch_lanes> values;
+        for (std::size_t i = 0; i < batch_lanes; ++i) values[i] = columns[i][c];
+        x = pack(values);
+        ++c;
+      },
+      many);
+  return many;
 }
 
 template <class T, int N>

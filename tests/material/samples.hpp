@@ -97,6 +97,17 @@ inline std::optional<Sample> dissipative(const std::string& model) {
   return s;
 }
 
+/// Of a law whose points part from the body and open, constants and initial values of soil without tensile strength.
+inline Sample parting(const std::string& model) {
+  auto s = sample(model);
+  if (model == "subloading" || model == "viscoplastic-subloading") {
+    s.initial = {{"R_b", 1.0}, {"p_c", 0.01 * s.constants.at("p_atm")}};  // on the floor
+  } else {
+    s.constants["c"] = s.constants["c_residual"] = 0;
+  }
+  return s;
+}
+
 /// A random state of the subloading model with 0 < R ≤ 1, ‖s̄‖ and the Lode angle anywhere.
 template <int N>
 Subloading::State<double, N> random_state(std::mt19937& generator, const Subloading& model) {

@@ -17,7 +17,7 @@ DruckerPrager::DruckerPrager(const Parameters& p)
 
 ModelDescription DruckerPrager::description() {
   const Bound from_zero{0.0, false}, right{90.0, true};
-  return elastoplastic::described(
+  return elastoplastic::described_parting(
       "drucker-prager",
       "linear elasticity with Drucker and Prager's cone through triaxial compression, dilation and softening",
       {elastoplastic::young(),

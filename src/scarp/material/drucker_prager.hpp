@@ -15,7 +15,7 @@
 
 namespace scarp {
 
-class DruckerPrager : public ElastoplasticLaw<DruckerPrager> {
+class DruckerPrager : public ElastoplasticLaw<DruckerPrager, PartingState> {
  public:
   struct Parameters {
     double E, nu;        ///< Young's modulus [stress], Poisson's ratio
@@ -71,10 +71,16 @@ class DruckerPrager : public ElastoplasticLaw<DruckerPrager> {
     return c.size.share * at.s + isotropic<T, N>(c.size.p);
   }
 
+  /// Flow around the apex has dε_v = −M_ψ dε_q: what expands beyond that opens.
+  template <class T, int N>
+  T opening(const At<T, N>& at, const T& kappa) const {
+    return T(-1.0 / elasticity_.K) * at.p - cone(kappa).M_psi * T(1.0 / (3.0 * elasticity_.G)) * at.q;
+  }
+
   /// Errors of stress are taken relative to ‖σ‖ + c + E/10⁵: what a strain of 10⁻⁵ makes is not followed to digits that
   /// nobody sees where a cohesionless point stands at no stress.
   template <class T, int N>
-  T error_norm(const PlasticState<T, N>& s, const PlasticState<T, N>& e) const {
+  T error_norm(const State<T, N>& s, const State<T, N>& e) const {
     return elastoplastic::error_norm(e, norm(s.sigma) + T(parameters_.c.peak + 1e-5 * parameters_.E));
   }
 

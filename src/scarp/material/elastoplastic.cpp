@@ -37,6 +37,13 @@ ModelDescription described(const std::string& name, const std::string& summary, 
             "κ that the soil has undergone before: strength on an old slip surface; standard 0"}}};
 }
 
+ModelDescription described_parting(const std::string& name, const std::string& summary,
+                                   std::vector<ParameterInfo> parameters) {
+  auto d = described(name, summary, std::move(parameters));
+  d.state.push_back(gap_field());
+  return d;
+}
+
 void check_softening(const std::string& key, const Softening& strength, std::vector<Problem>& problems) {
   if (strength.residual > strength.peak) {
     problems.push_back({key + "_residual", fmt::format("{0}_residual is no larger than {0}", key),

@@ -9,12 +9,15 @@
 //   compose(at, correction)  that difference as a tensor
 //   error_norm(s, error)     what the error of a stress is measured by
 //   K0()                     horizontal over vertical stress where nothing moves sideways
+// and, where its points part from the body at an apex (PartingState),
+//   opening(at, κ)           isotropic opening in the elastic strain that goes with a stress, see PartingState
 #pragma once
 
 #include <cmath>
 #include <vector>
 
 #include "scarp/material/description.hpp"
+#include "scarp/material/gap.hpp"
 #include "scarp/material/increment.hpp"
 #include "scarp/material/state.hpp"
 
@@ -32,6 +35,26 @@ struct PlasticState {
     f(s.epsp...);
     f(s.kappa...);
   }
+};
+
+/// The state of a law whose points part from the body at an apex at zero stress. Of the plastic strain there, what the
+/// surfaces around the apex can flow along is theirs (shear, with its dilation); the rest is an isotropic opening:
+///   dε^p = dε^flow − (dgap/3) I,  dε^flow on the boundary of their cone of flow directions.
+/// So the gap grows exactly where the stress stays at the apex, and what would lead away from it closes the gap first.
+template <class T, int N>
+struct PartingState : PlasticState<T, N> {
+  T gap = T(0.0);
+
+  template <class F, class... States>
+  static void each(F&& f, States&... s) {
+    PlasticState<T, N>::each(f, s...);
+    f(s.gap...);
+  }
+};
+
+template <class State>
+concept HasGap = requires(const State& s) {
+  s.gap;
 };
 
 /// Isotropic linear elasticity.
@@ -87,17 +110,17 @@ namespace elastoplastic {
 /// Below this share of the stress, outside the surface is on it: rounding.
 inline constexpr double on_surface = 1e-12;
 
-template <class T, int N>
+template <class State, class T>
 struct Returned {
-  PlasticState<T, N> state;
+  State state;
   Mask<T> plastic, parted, sound;
 };
 
 /// Elastic predictor and return with the strength of the end of the step, κ₁ = κ₀ + Δκ(κ₁): fully implicit (Simo &
 /// Hughes, Computational Inelasticity, 1998, ch. 3). Δκ is nearly linear in κ₁, so that the secant method ends after
 /// two or three steps; a strength that falls faster than the elastic unloading (Δκ' ≥ 1) has no stable answer.
-template <class Law, class T, int N, class At>
-Returned<T, N> returned(const Law& law, const PlasticState<T, N>& s, const Sym<T, N>& elastic, const At& at) {
+template <class Law, class State, class T, int N, class At>
+Returned<State, T> returned(const Law& law, const State& s, const Sym<T, N>& elastic, const At& at) {
   constexpr int most = 8;
   constexpr double enough = 1e-15;  // of κ
   const Sym<T, N> trial = s.sigma + elastic;
@@ -119,27 +142,83 @@ Returned<T, N> returned(const Law& law, const PlasticState<T, N>& s, const Sym<T
     sound = sound && (abs(miss) <= T(1e-9) * c.dkappa + T(enough));
   }
   const Sym<T, N> back = law.compose(at, c);
-  Returned<T, N> r;
+  Returned<State, T> r;
   for (int i = 0; i < N; ++i) r.state.sigma[i] = select(c.plastic, trial[i] - back[i], trial[i]);
   const Sym<T, N> depsp = law.elasticity().strain(back);
   for (int i = 0; i < N; ++i) r.state.epsp[i] = select(c.plastic, s.epsp[i] + depsp[i], s.epsp[i]);
   r.state.kappa = select(c.plastic, s.kappa + c.dkappa, s.kappa);
+  if constexpr (HasGap<State>) {
+    r.state.gap = s.gap;
+    if (any(c.parted)) {
+      r.state.gap = select(c.parted, s.gap + max(T(0.0), law.opening(at, r.state.kappa)), s.gap);
+      for (int i = 0; i < N; ++i) r.state.sigma[i] = select(c.parted, T(0.0), r.state.sigma[i]);
+    }
+  }
   r.plastic = c.plastic;
   r.parted = c.parted;
   r.sound = sound && (trace(r.state.sigma) == trace(r.state.sigma)) && (norm(back) < T(1e300));
   return r;
 }
 
-template <class Law, class T, int N>
-Returned<T, N> returned(const Law& law, const PlasticState<T, N>& s, const Sym<T, N>& elastic) {
+template <class Law, class State, class T, int N>
+Returned<State, T> returned(const Law& law, const State& s, const Sym<T, N>& elastic) {
   return returned(law, s, elastic, law.resolve(s.sigma + elastic));
+}
+
+/// An increment up to the instant at which an open point touches again. All strain until then is plastic.
+template <class State, class T>
+struct Contact {
+  State state;
+  T share;  ///< of the increment
+  T error;  ///< of the gap, where dilation falls on the way
+  Mask<T> open;
+};
+
+template <class Law, class State, class T, int N>
+Contact<State, T> to_contact(const Law& law, const State& s, const Sym<T, N>& elastic) {
+  const Sym<T, N> deps = law.elasticity().strain(elastic);
+  const T dkappa = T(0.81649658092772603273) * norm(deviator(deps));
+  const auto at = law.resolve(elastic);
+  const T first = law.opening(at, s.kappa);
+  Closing<T> closing(s.gap, first);
+  Contact<State, T> r{s, closing.share, T(0.0), closing.open};
+  // Where dilation falls with κ, the mean growth until contact: that in the middle of it, against that of its ends.
+  for (int i = 0; law.softens() && i < 3; ++i) {
+    const T middle = law.opening(at, s.kappa + T(0.5) * closing.share * dkappa);
+    const T end = law.opening(at, s.kappa + closing.share * dkappa);
+    const Closing<T> next(s.gap, middle);
+    const T moved = abs(next.share - closing.share) * norm(deps) + abs(next.gap - closing.gap);
+    r.error = select(closing.open, moved + abs(middle - T(0.5) * (first + end)), T(0.0));
+    closing = next;
+  }
+  r.share = closing.share;
+  for (int i = 0; i < N; ++i) r.state.sigma[i] = select(closing.open, T(0.0), s.sigma[i]);
+  r.state.epsp = s.epsp + r.share * deps;
+  r.state.kappa = s.kappa + r.share * dkappa;
+  r.state.gap = closing.gap;
+  return r;
+}
+
+/// returned() from a state that may be open.
+template <class Law, class State, class T, int N>
+Returned<State, T> stepped(const Law& law, const State& s, const Sym<T, N>& elastic) {
+  if constexpr (HasGap<State>) {
+    if (any(s.gap > T(0.0))) {
+      const auto contact = to_contact(law, s, elastic);
+      auto r = returned(law, contact.state, (T(1.0) - contact.share) * elastic);
+      r.plastic = r.plastic || contact.open;
+      r.parted = r.parted || (r.state.gap > T(0.0));
+      return r;
+    }
+  }
+  return returned(law, s, elastic);
 }
 
 /// Share of the increment after which plastic straining starts, for trial stresses that end outside the surface with
 /// excess f and slope df there. Along the straight way the excess is convex, so that Newton's method comes down on its
 /// last zero from above; four steps leave no more than a few percent of the plastic part below it.
-template <class Law, class T, int N>
-T elastic_share(const Law& law, const PlasticState<T, N>& s, const Sym<T, N>& elastic, const Mask<T>& plastic,
+template <class Law, class State, class T, int N>
+T elastic_share(const Law& law, const State& s, const Sym<T, N>& elastic, const Mask<T>& plastic,
                 const Excess<T>& end) {
   constexpr int steps = 4;
   constexpr double soon = 1.0 / 64;
@@ -163,23 +242,22 @@ T elastic_share(const Law& law, const PlasticState<T, N>& s, const Sym<T, N>& el
 /// where the flow turns on the way (a step's direction is that of its end); it is twice as large in one step, so that
 /// the difference is the error of the two, and twice the second less the first is better than both: what rests beside
 /// the surface, of fourth order, returns to it. Where the flow does not turn the two agree, and the answer is exact.
-template <class Law, class T, int N>
-Trial<PlasticState<T, N>, T> update(const Law& law, const PlasticState<T, N>& s, const Sym<T, N>& deps) {
+template <class Law, class State, class T, int N>
+Trial<State, T> update_closed(const Law& law, const State& s, const Sym<T, N>& elastic) {
   constexpr double rounding = 1e-13;
-  const Sym<T, N> elastic = law.elasticity().stress(deps);
   const auto at_end = law.resolve(s.sigma + elastic);
   auto whole = returned(law, s, elastic, at_end);
   const Mask<T> none = T(0.0) != T(0.0), plastic = whole.plastic;
-  Trial<PlasticState<T, N>, T> r{whole.state, T(0.0), {none, none, whole.parted, whole.sound}};
+  Trial<State, T> r{whole.state, T(0.0), {none, none, whole.parted, whole.sound}};
   if (!any(plastic)) return r;
 
   const T share = elastic_share(law, s, elastic, plastic, law.excess(at_end, s.kappa, elastic));
   const auto start = returned(law, s, share * elastic);
   const Sym<T, N> rest = (T(1.0) - share) * elastic;
-  if (any(share > T(0.0))) whole = returned(law, start.state, rest);
-  const auto first = returned(law, start.state, T(0.5) * rest);
-  const auto second = returned(law, first.state, T(0.5) * rest);
-  PlasticState<T, N> better = second.state, difference = advanced(second.state, T(-1.0), whole.state);
+  if (any(share > T(0.0))) whole = stepped(law, start.state, rest);
+  const auto first = stepped(law, start.state, T(0.5) * rest);
+  const auto second = stepped(law, first.state, T(0.5) * rest);
+  State better = second.state, difference = advanced(second.state, T(-1.0), whole.state);
   r.error = law.error_norm(second.state, difference);
   const Mask<T> exact = !plastic || (r.error <= T(rounding));
   r.error = select(exact, T(0.0), r.error);
@@ -190,6 +268,10 @@ Trial<PlasticState<T, N>, T> update(const Law& law, const PlasticState<T, N>& s,
 
   better = advanced(better, T(1.0), difference);
   better.kappa = max(better.kappa, s.kappa);
+  if constexpr (HasGap<State>) {  // an open point stays without stress, a closed one without a gap
+    better.gap = second.state.gap;
+    better = select_state(second.state.gap > T(0.0), second.state, better);
+  }
   const auto last = returned(law, better, Sym<T, N>::zero());
   r.state = select_state(exact, r.state, last.state);
   r.notes.separated = (exact && r.notes.separated) || (!exact && second.parted);
@@ -197,20 +279,47 @@ Trial<PlasticState<T, N>, T> update(const Law& law, const PlasticState<T, N>& s,
   return r;
 }
 
-/// Pulls a state that is outside its yield surface onto it and notes that; leaves every other alone.
-template <class Law, class T, int N>
-Notes<T> accept(const Law& law, PlasticState<T, N>& s) {
-  const auto on = returned(law, s, Sym<T, N>::zero());
-  s = select_state(on.plastic, on.state, s);
-  const Mask<T> none = T(0.0) != T(0.0);
-  return {on.plastic, none, on.parted, on.sound};
+/// update_closed(), after the part of the increment that closes what is open.
+template <class Law, class State, class T, int N>
+Trial<State, T> update(const Law& law, const State& s, const Sym<T, N>& deps) {
+  const Sym<T, N> elastic = law.elasticity().stress(deps);
+  if constexpr (HasGap<State>) {
+    if (any(s.gap > T(0.0))) {
+      const auto contact = to_contact(law, s, elastic);
+      auto r = update_closed(law, contact.state, (T(1.0) - contact.share) * elastic);
+      if (law.softens()) {  // what the gap errs by, a closed point feels as strain
+        State miss = advanced(s, T(-1.0), s);
+        miss.gap = contact.error;
+        const T stress = law.p_wave_modulus(s) * contact.error;
+        miss.sigma[0] = select(r.state.gap > T(0.0), T(0.0), stress);
+        r.error = r.error + law.error_norm(r.state, miss);
+      }
+      r.notes.separated = r.notes.separated || (r.state.gap > T(0.0));
+      return r;
+    }
+  }
+  return update_closed(law, s, elastic);
 }
 
-/// √(sum of squares) of the error of stress over `scale` and of the absolute ones of the plastic strain and κ.
-template <class T, int N>
-T error_norm(const PlasticState<T, N>& e, const T& scale) {
+/// Pulls a state that is outside its yield surface onto it and notes that; leaves every other alone.
+template <class Law, class State>
+auto accept(const Law& law, State& s) {
+  using T = std::decay_t<decltype(s.kappa)>;
+  const auto on = returned(law, s, std::decay_t<decltype(s.sigma)>::zero());
+  s = select_state(on.plastic, on.state, s);
+  const Mask<T> none = T(0.0) != T(0.0);
+  Notes<T> notes{on.plastic, none, on.parted, on.sound};
+  if constexpr (HasGap<State>) notes.separated = notes.separated || (s.gap > T(0.0));
+  return notes;
+}
+
+/// √(sum of squares) of the error of stress over `scale` and of the absolute ones of the plastic strain, κ and the gap.
+template <class State, class T>
+T error_norm(const State& e, const T& scale) {
   const T inverse = T(1.0) / scale;
-  return sqrt(dot(e.sigma, e.sigma) * inverse * inverse + dot(e.epsp, e.epsp) + e.kappa * e.kappa);
+  T sum = dot(e.sigma, e.sigma) * inverse * inverse + dot(e.epsp, e.epsp) + e.kappa * e.kappa;
+  if constexpr (HasGap<State>) sum = sum + e.gap * e.gap;
+  return sqrt(sum);
 }
 
 // What the laws' descriptions and initial values share.
@@ -221,6 +330,9 @@ ParameterInfo poisson();
 ParameterInfo softening_strain();
 /// State, derived quantities and initial keys.
 ModelDescription described(const std::string& name, const std::string& summary, std::vector<ParameterInfo> parameters);
+/// The same with the gap.
+ModelDescription described_parting(const std::string& name, const std::string& summary,
+                                   std::vector<ParameterInfo> parameters);
 
 /// A residual strength, `key`_residual, is no larger than the peak and is reached over some strain.
 void check_softening(const std::string& key, const Softening& strength, std::vector<Problem>& problems);
@@ -236,11 +348,12 @@ double initial_kappa(const Values& keys, std::vector<Problem>& problems);
 /// The initial stress with these invariants lies outside the yield surface.
 void refuse_outside(double q, double p, std::vector<Problem>& problems);
 
-/// The state at `sigma`; a problem where that lies outside the yield surface.
-template <class Law, int N>
-PlasticState<double, N> initial_state(const Law& law, const Sym<double, N>& sigma, const Values& keys,
-                                      std::vector<Problem>& problems) {
-  const PlasticState<double, N> s{sigma, Sym<double, N>::zero(), initial_kappa(keys, problems)};
+/// The state at `sigma`, closed; a problem where that lies outside the yield surface.
+template <class State, class Law, int N>
+State initial_state(const Law& law, const Sym<double, N>& sigma, const Values& keys, std::vector<Problem>& problems) {
+  State s{};
+  s.sigma = sigma;
+  s.kappa = initial_kappa(keys, problems);
   const auto on = returned(law, s, Sym<double, N>::zero());
   if (norm(on.state.sigma - sigma) > 1e-9 * norm(sigma)) {
     refuse_outside(deviatoric_stress(sigma), mean(sigma), problems);
@@ -256,39 +369,40 @@ std::vector<double> derived(const PlasticState<double, N>& s) {
 }  // namespace elastoplastic
 
 /// What every law of this kind does alike, for `Law` to inherit: class VonMises : public ElastoplasticLaw<VonMises>.
-template <class Law>
+/// `S` is the kind of its state.
+template <class Law, template <class, int> class S = PlasticState>
 class ElastoplasticLaw {
  public:
   template <class T, int N>
-  using State = PlasticState<T, N>;
+  using State = S<T, N>;
 
   const Elasticity& elasticity() const { return elasticity_; }
 
   template <class T, int N>
-  Trial<PlasticState<T, N>, T> update(const PlasticState<T, N>& s, const Increment<T, N>& i, double) const {
+  Trial<State<T, N>, T> update(const State<T, N>& s, const Increment<T, N>& i, double) const {
     return elastoplastic::update(law(), s, i.deps);
   }
   template <class T, int N>
-  Mask<T> admissible(const PlasticState<T, N>& s) const {
+  Mask<T> admissible(const State<T, N>& s) const {
     return trace(s.sigma) == trace(s.sigma);
   }
   template <class T, int N>
-  Notes<T> accept(PlasticState<T, N>& s, double) const {
+  Notes<T> accept(State<T, N>& s, double) const {
     return elastoplastic::accept(law(), s);
   }
   /// The elastic one, of unloading.
   template <class T, int N>
-  T p_wave_modulus(const PlasticState<T, N>&) const {
+  T p_wave_modulus(const State<T, N>&) const {
     return T(elasticity_.K + 4.0 / 3.0 * elasticity_.G);
   }
 
   template <int N>
-  PlasticState<double, N> initial_state(const Sym<double, N>& sigma, double, const Values& keys,
-                                        std::vector<Problem>& problems) const {
-    return elastoplastic::initial_state(law(), sigma, keys, problems);
+  State<double, N> initial_state(const Sym<double, N>& sigma, double, const Values& keys,
+                                 std::vector<Problem>& problems) const {
+    return elastoplastic::initial_state<State<double, N>>(law(), sigma, keys, problems);
   }
   template <int N>
-  std::vector<double> derived(const PlasticState<double, N>& s) const {
+  std::vector<double> derived(const State<double, N>& s) const {
     return elastoplastic::derived(s);
   }
 

@@ -17,7 +17,7 @@ MohrCoulomb::MohrCoulomb(const Parameters& p)
 
 ModelDescription MohrCoulomb::description() {
   const Bound from_zero{0.0, false}, right{90.0, true};
-  return elastoplastic::described(
+  return elastoplastic::described_parting(
       "mohr-coulomb", "linear elasticity with Mohr and Coulomb's strength, dilation, tension cut-off and softening",
       {elastoplastic::young(),
        elastoplastic::poisson(),

@@ -17,7 +17,7 @@
 
 namespace scarp {
 
-class MohrCoulomb : public ElastoplasticLaw<MohrCoulomb> {
+class MohrCoulomb : public ElastoplasticLaw<MohrCoulomb, PartingState> {
  public:
   struct Parameters {
     double E, nu;        ///< Young's modulus [stress], Poisson's ratio
@@ -60,10 +60,15 @@ class MohrCoulomb : public ElastoplasticLaw<MohrCoulomb> {
     return composed(c.size, at.projection);
   }
 
+  template <class T, int N>
+  T opening(const Spectral<T, N>& at, const T& kappa) const {
+    return elastoplastic::apex_opening(at.value, strength(kappa), elasticity_);
+  }
+
   /// Errors of stress are taken relative to ‖σ‖ + c + E/10⁵: what a strain of 10⁻⁵ makes is not followed to digits that
   /// nobody sees where a cohesionless point stands at no stress.
   template <class T, int N>
-  T error_norm(const PlasticState<T, N>& s, const PlasticState<T, N>& e) const {
+  T error_norm(const State<T, N>& s, const State<T, N>& e) const {
     return elastoplastic::error_norm(e, norm(s.sigma) + T(parameters_.c.peak + 1e-5 * parameters_.E));
   }
 

@@ -91,7 +91,7 @@ PrincipalReturn<T> to_tension(const std::array<T, 3>& s, const PrincipalStrength
   const Mask<T> sheared = s1 > corner;
   r[0] = select(sheared, d1, r[0]);
   r[1] = select(sheared, s[1] - max(end, min(corner, s2)), r[1]);
-  return {r, apex, apex};
+  return {r, apex, apex || (sheared && (corner <= end))};  // without cohesion L is the apex, too
 }
 
 }  // namespace detail
@@ -115,6 +115,21 @@ PrincipalReturn<T> mohr_coulomb_return(const std::array<T, 3>& s, const Principa
     }
   }
   return r;
+}
+
+/// Isotropic opening in the elastic strain e1 ≥ e2 ≥ e3 that goes with a stress, at an apex at zero: the g for which
+/// e + (g/3) I lies on the boundary of the cone of the flow around the apex.
+///  - Without cohesion the shear planes meet there, and tr e = −sin ψ Σ|e_i| for all sums of their flows. On the
+///    boundary e1 ≥ 0 ≥ e3, and Σ|e_i| is the larger of e1 ± e2 − e3.
+///  - With cohesion the planes of the cut-off do, e_i ≤ 0: what opens is what all directions do.
+template <class T>
+T apex_opening(const std::array<T, 3>& s, const PrincipalStrength<T>& y, const Elasticity& e) {
+  const T shear(0.5 / e.G), volume = T(1.0 / (9.0 * e.K) - 1.0 / (6.0 * e.G)) * (s[0] + s[1] + s[2]);
+  const T e1 = shear * s[0] + volume, e2 = shear * s[1] + volume, e3 = shear * s[2] + volume;
+  const T third = T(1.0 / 3.0) * y.sin_psi, grown = -(e1 + e2 + e3);
+  const T up = (grown - y.sin_psi * (e1 + e2 - e3)) / (T(1.0) + third);
+  const T down = (grown - y.sin_psi * (e1 - e2 - e3)) / (T(1.0) - third);
+  return select(y.cohesion > T(0.0), T(-3.0) * e1, min(up, down));
 }
 
 /// The larger of both excesses; df/dσ = Σ (df/dσ_i) n_i ⊗ n_i.

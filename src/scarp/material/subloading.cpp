@@ -66,6 +66,7 @@ ModelDescription Subloading::description() {
           {"epsp", "ε^p", "-", "plastic strain", FieldKind::tensor},
           {"p_c", "p_c", "stress", "size of the structured yield surface", FieldKind::scalar},
           {"R_b", "R_b", "-", "bonding factor", FieldKind::scalar},
+          gap_field(),
       },
       {
           {"R", "R", "-", "homothety ratio of the subloading to the yield surface", FieldKind::scalar},

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "scarp/material/description.hpp"
+#include "scarp/material/gap.hpp"
+#include "scarp/material/integrate/after_closing.hpp"
 #include "scarp/material/state.hpp"
 #include "scarp/material/willam_warnke.hpp"
 
@@ -39,6 +41,7 @@ class Subloading {
     Sym<T, N> epsp;   ///< plastic strain
     T p_c;            ///< size of the structured yield surface along the hydrostatic axis
     T R_b;            ///< bonding factor
+    T gap = T(0.0);   ///< of a separated point, see gap.hpp
 
     template <class F, class... States>
     static void each(F&& f, States&... s) {
@@ -48,6 +51,7 @@ class Subloading {
       f(s.epsp...);
       f(s.p_c...);
       f(s.R_b...);
+      f(s.gap...);
     }
   };
 
@@ -127,12 +131,23 @@ class Subloading {
   template <class T, int N>
   Rate<State<T, N>, T> rate(const State<T, N>& s, const Sym<T, N>& deps) const;
 
+  /// An open point has no other change than that of its gap.
+  template <class S, class T, int N>
+  void open_where_parted(const S& s, const Sym<T, N>& deps, Rate<S, T>& rate) const;
+
+  /// The pair's step, after the part of the increment that closes what is open.
+  template <class Pair, class T, int N>
+  Trial<State<T, N>, T> update(const State<T, N>& s, const Increment<T, N>& step, double tolerance) const {
+    return after_closing<Pair>(*this, s, step, tolerance);
+  }
+
   template <class T, int N>
   Mask<T> admissible(const State<T, N>& s) const {
     return homothety(s).exists && (s.p_c > T(0.0)) && (mean(s.sigma) + T(c_.p_e) > T(0.0));
   }
 
-  /// √(sum of squares) of the relative errors of sigma, a, p_c, R_b and the absolute ones of beta and epsp. Stresses
+  /// √(sum of squares) of the relative errors of sigma, a, p_c, R_b and the absolute ones of beta and epsp; the gap's
+  /// is sigma's. Stresses
   /// are taken relative to ‖σ‖ + p_c/10, so that a point at nearly no stress is not followed to digits that nobody
   /// sees.
   template <class T, int N>
@@ -152,7 +167,7 @@ class Subloading {
   Notes<T> hold_at_floor(State<T, N>& s) const;
 
   /// At the floor the bonds are gone and so is the tensile strength: the point parts from the body, until it is
-  /// compressed. `exists`: the stress has a homothety.
+  /// compressed as far as it has opened. `exists`: the stress has a homothety.
   template <class T, int N>
   void part_where_torn(State<T, N>& s, const Mask<T>& exists, Notes<T>& notes) const;
 
@@ -298,6 +313,7 @@ void Subloading::change(const Image<T, N>& y, const Hardening<T, N>& r, const Sy
   d.a = dLambda * r.a;
   d.p_c = dLambda * r.p_c;
   d.R_b = dLambda * r.R_b;
+  d.gap = T(0.0);
 }
 
 template <class T, int N>
@@ -312,7 +328,17 @@ Rate<Subloading::State<T, N>, T> Subloading::rate(const State<T, N>& s, const Sy
   Rate<State<T, N>, T> result;
   change(y, r, deps, dLambda, result.change);
   result.sound = y.h.exists && (s.p_c > T(0.0)) && (y.K > T(0.0)) && ((resistance > T(0.0)) || !plastic);
+  open_where_parted(s, deps, result);
   return result;
+}
+
+template <class S, class T, int N>
+void Subloading::open_where_parted(const S& s, const Sym<T, N>& deps, Rate<S, T>& rate) const {
+  const Mask<T> open = s.gap > T(0.0);
+  if (!any(open)) return;
+  for_each_component([&](T& x) { x = select(open, T(0.0), x); }, rate.change);
+  rate.change.gap = select(open, -trace(deps), T(0.0));
+  rate.sound = rate.sound || open;
 }
 
 template <class T, int N>
@@ -332,11 +358,21 @@ void Subloading::part_where_torn(State<T, N>& s, const Mask<T>& exists, Notes<T>
   const T p = mean(s.sigma);
   notes.separated = (p <= T(0.0)) && (notes.on_floor || (p + T(c_.p_e) <= T(0.01 * c_.p_e)));
   notes.sound = notes.sound && (notes.separated || (exists && (p + T(c_.p_e) > T(0.0))));
-  if (!any(notes.separated)) return;
+  if (!any(notes.separated || (abs(s.gap) > T(0.0)))) return;
+  // The elastic strain of the tension that goes, eq. 26: dp = (p + p_e) dε_v/κ̄.
+  const T left = max(p + T(c_.p_e), T(1e-6 * c_.p_e)) * T(c_.p_e > 0.0 ? 1.0 / c_.p_e : 0.0);
+  const Mask<T> torn = notes.separated && (p < T(0.0)) && (left > T(0.0));
+  s.gap = select(torn, s.gap - T(c_.kappa) * log(select(torn, left, T(1.0))), s.gap);
   for (int i = 0; i < N; ++i) {
     s.sigma[i] = select(notes.separated, T(0.0), s.sigma[i]);
     s.a[i] = select(notes.separated, T(0.0), s.a[i]);
   }
+  // A rate that closed the gap and went on: the rest compresses the point.
+  const Mask<T> beyond = s.gap < T(0.0);
+  const T pressure = T(c_.p_e) * (exp(-s.gap * T(per_kappa_)) - T(1.0));
+  for (int i = 0; i < 3; ++i) s.sigma[i] = select(beyond, pressure, s.sigma[i]);
+  notes.separated = (notes.separated && !beyond) || (s.gap > T(0.0));
+  s.gap = max(s.gap, T(0.0));
 }
 
 template <class T, int N>

@@ -67,6 +67,12 @@ class ViscoplasticSubloading {
   template <class T, int N>
   Rate<State<T, N>, T> rate(const State<T, N>& s, const Sym<T, N>& deps, const T& dt) const;
 
+  /// The pair's step, after the part of the increment that closes what is open.
+  template <class Pair, class T, int N>
+  Trial<State<T, N>, T> update(const State<T, N>& s, const Increment<T, N>& step, double tolerance) const {
+    return after_closing<Pair>(*this, s, step, tolerance);
+  }
+
   template <class T, int N>
   Mask<T> admissible(const State<T, N>& s) const {
     return law_.admissible(s) && (law_.homothety(s).R < T(c_.R_m));
@@ -124,6 +130,7 @@ Rate<ViscoplasticSubloading::State<T, N>, T> ViscoplasticSubloading::rate(const 
   law_.change(y, r, deps, dLambda, result.change);
   result.change.overstress = select(above, growth, T(0.0));
   result.sound = y.h.exists && (s.p_c > T(0.0)) && (y.K > T(0.0)) && (y.h.R < T(c_.R_m));
+  law_.open_where_parted(s, deps, result);
   return result;
 }
 

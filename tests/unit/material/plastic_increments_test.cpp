@@ -21,7 +21,7 @@ void random_steps(const Model& model, double size, bool on_surface, F&& f) {
       const double w = 0.5 * (inside + outside);
       (model.excess(model.resolve(isotropic<double, 6>(100) + w * way), 0.0, way).f > 0 ? outside : inside) = w;
     }
-    State6 s = start(100);
+    auto s = start(model, 100);
     const double share = i % 2 ? 1.0 : uniform(generator);
     s.sigma = s.sigma + (on_surface ? inside : share * inside) * way;
     f(s, random_tensor<6>(generator, size));
@@ -33,10 +33,10 @@ void random_steps(const Model& model, double size, bool on_surface, F&& f) {
 template <class Model>
 void expect_honest_error(const Model& model) {
   int optimistic = 0, all = 0;
-  random_steps(model, 1e-3, false, [&](const State6& s, const Sym<double, 6>& deps) {
+  random_steps(model, 1e-3, false, [&](const State6<Model>& s, const Sym<double, 6>& deps) {
     const auto trial = attempt<ModifiedEuler>(model, s, deps, 1e-4);
     ASSERT_TRUE(trial.notes.sound);
-    State6 slow = s;
+    State6<Model> slow = s;
     for (int k = 0; k < 2000; ++k) slow = attempt<ModifiedEuler>(model, slow, (1.0 / 2000) * deps, 1e-4).state;
     const double error = model.error_norm(slow, advanced(trial.state, -1.0, slow));
     ++all;
@@ -50,13 +50,13 @@ void expect_honest_error(const Model& model) {
 template <class Model>
 void expect_order(const Model& model) {
   std::vector<double> estimates, errors;
-  random_steps(model, 2e-4, true, [&](const State6& s, const Sym<double, 6>& deps) {
-    const auto flows = [&](const State6& at) {
+  random_steps(model, 2e-4, true, [&](const State6<Model>& s, const Sym<double, 6>& deps) {
+    const auto flows = [&](const State6<Model>& at) {
       return attempt<ModifiedEuler>(model, at, 0.01 * deps, 1e-4).state.kappa > at.kappa;
     };
-    State6 slow = s;
+    State6<Model> slow = s;
     for (int k = 0; k < 500; ++k) slow = attempt<ModifiedEuler>(model, slow, (1.0 / 500) * deps, 1e-4).state;
-    State6 middle = s;
+    State6<Model> middle = s;
     for (int k = 0; k < 250; ++k) middle = attempt<ModifiedEuler>(model, middle, (1.0 / 500) * deps, 1e-4).state;
     const auto whole = attempt<ModifiedEuler>(model, s, deps, 1e-4),
                half = attempt<ModifiedEuler>(model, s, 0.5 * deps, 1e-4);
@@ -98,9 +98,9 @@ TEST(PlasticLaws, NoErrorWhereTheReturnIsExact) {
        {Sym<double, 6>{{-2e-3, 5e-3, -2e-3, 0, 0, 0}}, Sym<double, 6>{{1e-3, 5e-3, -4e-3, 0, 0, 0}}}) {
     for (double tension : {1e30, 0.0}) {
       const auto model = law<MohrCoulomb>(sand, {{"tension", tension}});
-      const auto once = attempt<ModifiedEuler>(model, start(100), deps, 1e-4);
+      const auto once = attempt<ModifiedEuler>(model, start(model, 100), deps, 1e-4);
       EXPECT_EQ(once.error, 0);
-      State6 slow = start(100);
+      auto slow = start(model, 100);
       for (int k = 0; k < 1000; ++k) slow = attempt<ModifiedEuler>(model, slow, 1e-3 * deps, 1e-4).state;
       EXPECT_LT(norm(once.state.sigma - slow.sigma), 1e-9);
     }
@@ -109,8 +109,8 @@ TEST(PlasticLaws, NoErrorWhereTheReturnIsExact) {
 
 template <class Model>
 void expect_dissipation(const Model& model) {
-  random_steps(model, 3e-3, false, [&](const State6& s, const Sym<double, 6>& deps) {
-    State6 end = s;
+  random_steps(model, 3e-3, false, [&](const State6<Model>& s, const Sym<double, 6>& deps) {
+    State6<Model> end = s;
     if (integrate<ModifiedEuler>(model, end, deps, {1e-5, 1e-7}).end != IntegrationEnd::done) return;
     const auto one = attempt<ModifiedEuler>(model, s, 1e-2 * deps, 1e-4);
     const auto flow = one.state.epsp - s.epsp;
@@ -135,7 +135,7 @@ TEST(PlasticLaws, PlasticFlowDissipates) {
 // A state outside its surface is pulled back once, noted, and then left alone.
 TEST(PlasticLaws, AcceptPullsBack) {
   const auto model = law<MohrCoulomb>(sand);
-  State6 s = start(100);
+  auto s = start(model, 100);
   s.sigma[1] = 500;
   EXPECT_TRUE(model.accept(s, 1e-4).corrected);
   EXPECT_FALSE(model.accept(s, 1e-4).corrected);
@@ -145,7 +145,7 @@ TEST(PlasticLaws, AcceptPullsBack) {
 // reported, at the peak.
 TEST(PlasticLaws, UnstableSofteningIsReported) {
   const auto expect_unstable = [](const auto& model) {
-    State6 s = start(5000);
+    auto s = start(model, 5000);
     const auto report = integrate<ModifiedEuler>(model, s, Sym<double, 6>{{-0.2, 0.4, -0.2, 0, 0, 0}}, {});
     EXPECT_EQ(report.end, IntegrationEnd::unstable);
     EXPECT_GT(report.reached, 0.1);

@@ -10,7 +10,8 @@
 
 namespace scarp::test::plastic {
 
-using State6 = PlasticState<double, 6>;
+template <class Model>
+using State6 = typename Model::template State<double, 6>;
 using Constants = std::map<std::string, double>;
 constexpr IntegrationSettings sharp{1e-8, 1e-9};
 inline const double degree = std::acos(-1.0) / 180;
@@ -29,8 +30,11 @@ inline const Constants soft_clay{{"s_u_residual", 10}, {"epsp_residual", 0.02}};
 inline const Constants soft_sand{{"c_residual", 1}, {"phi_residual", 22}, {"epsp_residual", 0.04}};
 
 /// At an isotropic stress.
-inline State6 start(double p) {
-  return {isotropic<double, 6>(p), Sym<double, 6>::zero(), 0.0};
+template <class Model>
+State6<Model> start(const Model&, double p) {
+  State6<Model> s{};
+  s.sigma = isotropic<double, 6>(p);
+  return s;
 }
 
 }  // namespace scarp::test::plastic

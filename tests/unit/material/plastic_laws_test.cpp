@@ -11,15 +11,15 @@ namespace {
 
 /// One increment of axial strain (along y) with the lateral stress held: the lateral strain by the secant method.
 template <class Model>
-void triaxial(const Model& model, State6& s, double axial) {
+void triaxial(const Model& model, State6<Model>& s, double axial) {
   const double held = s.sigma[0];
-  const auto at = [&](double lateral, State6& out) {
+  const auto at = [&](double lateral, State6<Model>& out) {
     out = s;
     EXPECT_EQ(integrate<ModifiedEuler>(model, out, Sym<double, 6>{{lateral, axial, lateral, 0, 0, 0}}, sharp).end,
               IntegrationEnd::done);
     return out.sigma[0] - held;
   };
-  State6 out;
+  State6<Model> out;
   double x0 = 0, x1 = -0.3 * axial, f0 = at(x0, out), f1 = at(x1, out);
   for (int i = 0; i < 60 && std::abs(f1) > 1e-11; ++i) {
     const double x2 = x1 - f1 * (x1 - x0) / (f1 - f0);
@@ -34,8 +34,8 @@ void triaxial(const Model& model, State6& s, double axial) {
 
 /// Axial stress at failure under a lateral stress of 100.
 template <class Model>
-State6 failed(const Model& model, double sign) {
-  State6 s = start(100);
+State6<Model> failed(const Model& model, double sign) {
+  auto s = start(model, 100);
   for (int i = 0; i < 20; ++i) triaxial(model, s, sign * 2e-3);
   return s;
 }
@@ -60,7 +60,7 @@ TEST(PlasticLaws, TriaxialStrength) {
 TEST(PlasticLaws, Dilation) {
   const double v = std::sin(10 * degree);
   const auto rate = [](const auto& model, double sign) {
-    State6 s = failed(model, sign);
+    auto s = failed(model, sign);
     const auto before = s.epsp;
     triaxial(model, s, sign * 2e-3);
     return s.epsp - before;
@@ -77,7 +77,8 @@ TEST(PlasticLaws, Dilation) {
 // Simple shear without volume change, 4 components: at failure (σ1 − σ3)/2 is c cos φ + (σ1 + σ3)/2 sin φ.
 TEST(PlasticLaws, PlaneStrainStrength) {
   const auto sheared = [](const auto& model) {
-    PlasticState<double, 4> s{{{80, 120, 80, 0}}, Sym<double, 4>::zero(), 0.0};
+    typename std::decay_t<decltype(model)>::template State<double, 4> s{};
+    s.sigma = {{80, 120, 80, 0}};
     for (int i = 0; i < 50; ++i) integrate<ModifiedEuler>(model, s, Sym<double, 4>{{0, 0, 0, 2e-3}}, {1e-6, 1e-9});
     const double radius = std::hypot((s.sigma[0] - s.sigma[1]) / 2, s.sigma[3] / sqrt2);
     return std::pair(radius, (s.sigma[0] + s.sigma[1]) / 2);
@@ -94,7 +95,7 @@ template <class Model>
 void expect_simple_shear() {
   const auto model = law<Model>(clay, {{"s_u_residual", 8}, {"epsp_residual", 0.02}});
   const double G = model.elasticity().G, m = 12 / 0.02;
-  State6 s = start(50);
+  auto s = start(model, 50);
   for (int i = 1; i <= 60; ++i) {
     const double gamma = 1e-3 * i;
     ASSERT_EQ(integrate<ModifiedEuler>(model, s, Sym<double, 6>{{0, 0, 0, 1e-3 / sqrt2, 0, 0}}, {1e-4, 1e-7}).end,
@@ -129,7 +130,7 @@ double dilated(double kappa) {
 template <class Model>
 void expect_triaxial_softening() {
   const auto model = law<Model>(sand, {{"c_residual", 1}, {"phi_residual", 22}, {"epsp_residual", 0.04}});
-  State6 s = start(100);
+  auto s = start(model, 100);
   for (int i = 0; i < 60; ++i) {
     triaxial(model, s, 2e-3);
     const double share = std::min(1.0, s.kappa / 0.04), sin_phi = std::sin((30 - 8 * share) * degree);
@@ -170,7 +171,8 @@ TEST(PlasticLaws, SoftenedStrengthIsTheResidualOne) {
                                                                    {"phi_residual", 28.5},
                                                                    {"psi", 3.5},
                                                                    {"epsp_residual", 0.0291745}}));
-  PlasticState<double, 6> s{isotropic<double, 6>(5e-15), Sym<double, 6>::zero(), 0.196};
+  auto s = start(law, 5e-15);
+  s.kappa = 0.196;
   EXPECT_TRUE(law.accept(s, 1e-4).sound);
   EXPECT_LT(norm(s.sigma), 1e-14);  // and a number
 }
@@ -178,15 +180,15 @@ TEST(PlasticLaws, SoftenedStrengthIsTheResidualOne) {
 // Pulled apart, a cohesionless point has no stress, is counted as separated, and takes load again once closed.
 TEST(PlasticLaws, SeparationAndCutoff) {
   const auto dry = law<MohrCoulomb>(sand, {{"c", 0}});
-  State6 s = start(1);
+  auto s = start(dry, 1);
   const auto apart = attempt<ModifiedEuler>(dry, s, isotropic<double, 6>(-1e-3), 1e-4);
   EXPECT_TRUE(apart.notes.separated && apart.notes.sound);
   EXPECT_NEAR(norm(apart.state.sigma), 0, 1e-12);
   const auto back = attempt<ModifiedEuler>(dry, apart.state, isotropic<double, 6>(1e-3), 1e-4);
   EXPECT_FALSE(back.notes.separated);
-  EXPECT_NEAR(mean(back.state.sigma), dry.elasticity().K * 3e-3, 1e-9);
+  EXPECT_NEAR(mean(back.state.sigma), 1, 1e-11);  // as far as before: what opened has closed
   const auto cut = law<MohrCoulomb>(sand, {{"tension", 2}});
-  State6 pulled = start(10);
+  auto pulled = start(cut, 10);
   for (int i = 0; i < 20; ++i) {
     integrate<ModifiedEuler>(cut, pulled, Sym<double, 6>{{-1e-4, 0, 0, 0, 0, 0}}, sharp);
   }

@@ -85,7 +85,7 @@ void expect_relaxed(double c, double phi, double psi, double tension, double nu)
   const auto all = planes(c, phi * degree, psi * degree, std::min(tension, apex));
   std::mt19937 generator(21);
   for (int i = 0; i < 400; ++i) {
-    PlasticState<double, 6> s{};
+    MohrCoulomb::State<double, 6> s{};
     s.sigma = random_tensor<6>(generator, 60) + isotropic<double, 6>(i % 2 ? 60 : 0);
     const Principal trial = values(s.sigma);
     const auto on = elastoplastic::returned(model, s, Sym<double, 6>::zero());
@@ -160,9 +160,10 @@ TEST(PlasticReturn, ConesFlowAlongTheirPotential) {
   std::mt19937 generator(23);
   int apex = 0;
   for (int i = 0; i < 1000; ++i) {
-    PlasticState<double, 6> trial{};
+    DruckerPrager::State<double, 6> trial{};
     trial.sigma = random_tensor<6>(generator, 60);
-    const auto soft = elastoplastic::returned(clay, trial, Sym<double, 6>::zero()).state;
+    const auto soft =
+        elastoplastic::returned(clay, static_cast<const PlasticState<double, 6>&>(trial), Sym<double, 6>::zero()).state;
     if (norm(soft.epsp) > 0) {
       EXPECT_NEAR(deviatoric_stress(soft.sigma), std::sqrt(3.0) * 10, 1e-11);
       expect_normal(soft, [](const auto& x) { return deviatoric_stress(x); });
@@ -189,7 +190,7 @@ void expect_batch_is_double(const Constants& constants) {
   const auto model = law<Model>(constants);
   std::mt19937 generator(24);
   for (int repeat = 0; repeat < 300; ++repeat) {
-    std::array<PlasticState<double, N>, batch_lanes> s{};
+    std::array<typename Model::template State<double, N>, batch_lanes> s{};
     std::array<Sym<double, N>, batch_lanes> deps, sigma;
     for (std::size_t l = 0; l < batch_lanes; ++l) {
       s[l].sigma = random_tensor<N>(generator, 30) + isotropic<double, N>(30);
@@ -200,10 +201,7 @@ void expect_batch_is_double(const Constants& constants) {
       sigma[l] = s[l].sigma;
       deps[l] = random_tensor<N>(generator, l % 3 ? 1e-3 : 1e-5);
     }
-    PlasticState<Batch, N> many{pack<N>(sigma), Sym<Batch, N>::zero(), Batch(0.0)};
-    std::array<double, batch_lanes> kappa;
-    for (std::size_t l = 0; l < batch_lanes; ++l) kappa[l] = s[l].kappa;
-    many.kappa = pack(kappa);
+    const auto many = packed<Model, N>(s);
     const auto all = attempt<ModifiedEuler>(model, many, pack<N>(deps), 1e-4);
     for (std::size_t l = 0; l < batch_lanes; ++l) {
       const auto one = attempt<ModifiedEuler>(model, s[l], deps[l], 1e-4);
