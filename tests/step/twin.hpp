@@ -81,9 +81,11 @@ class Twin {
         const double sign = v[n][j] > 0 ? 1 : v[n][j] < 0 ? -1 : 0;
         a[n][j] = (force - settings.damping * std::abs(force) * sign) / m[n];
       }
-      held[n] = constrain_acceleration<Dim>(body_.conditions, static_cast<int>(n), m[n], v[n], dt, a[n]).held;
+      take_back_damping(settings, n, m[n], v[n], F[n], dt, a[n]);
+      held[n] =
+          constrain_acceleration<Dim>(body_.conditions, settings.wall, static_cast<int>(n), m[n], v[n], dt, a[n]).held;
       for (int j = 0; j < Dim; ++j) v_next[n][j] = v[n][j] + a[n][j] * dt;
-      constrain_velocity<Dim>(body_.conditions, static_cast<int>(n), held[n], v_next[n]);
+      constrain_velocity<Dim>(body_.conditions, settings.wall, static_cast<int>(n), held[n], v_next[n]);
     }
     // Steps 4 and 5 (eqs 6–8).
     std::vector<Vec<Dim>> momentum(nodes), v_end(nodes);
@@ -106,7 +108,7 @@ class Twin {
     for (std::size_t n = 0; n < nodes; ++n) {
       if (m[n] < least_mass_) continue;
       for (int j = 0; j < Dim; ++j) v_end[n][j] = momentum[n][j] / m[n];
-      constrain_velocity<Dim>(body_.conditions, static_cast<int>(n), held[n], v_end[n]);
+      constrain_velocity<Dim>(body_.conditions, settings.wall, static_cast<int>(n), held[n], v_end[n]);
     }
     // Steps 6 to 11 (eqs 9–19).
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -128,6 +130,15 @@ class Twin {
   }
 
  private:
+  /// Local damping does not act along the normal of a wall by motion, where the node goes into it without.
+  void take_back_damping(const StepSettings& settings, std::size_t n, double m, const Vec<Dim>& v,
+                         const Vec<Dim>& F_int, double dt, Vec<Dim>& a) const {
+    const int normal = body_.conditions.normal[n];
+    if (normal < 0 || settings.wall != WallRule::by_motion) return;
+    const double undamped = body_.gravity[normal] - F_int[normal] / m;
+    if (body_.conditions.inward[n] * (v[normal] + undamped * dt) < 0) a[normal] = undamped;
+  }
+
   /// A point's local nodes with N_i and B̂_i, whose third component is N_i / r in a body of revolution, and the weight w
   /// of its volume.
   struct AtPoint {

@@ -77,7 +77,8 @@ void run_both(Mesh<Dim> mesh, const AnyModel& model, int along, int steps, const
 }
 
 const StepSettings plain{.integration = {1e-4, 1e-5}},
-    all_on{.flip = 0.98, .damping = 0.1, .quadrature = Quadrature::corrected, .integration = {1e-4, 1e-5}};
+    all_on{.flip = 0.98, .damping = 0.1, .quadrature = Quadrature::corrected, .integration = {1e-4, 1e-5}},
+    by_motion{.flip = 0.98, .damping = 0.1, .integration = {1e-4, 1e-5}, .wall = WallRule::by_motion};
 
 class InThePlane : public testing::TestWithParam<Background> {};
 class InSpace : public testing::TestWithParam<Background> {};
@@ -87,6 +88,9 @@ TEST_P(InThePlane, LinearElastic) {
 }
 TEST_P(InThePlane, LinearElasticWithDampingAndPic) {
   run_both<LinearElastic, 2>(plane_mesh(GetParam(), 10), elastic(), 13, 400, all_on);
+}
+TEST_P(InThePlane, LinearElasticOnAWallByMotion) {
+  run_both<LinearElastic, 2>(plane_mesh(GetParam(), 10), elastic(), 13, 400, by_motion);
 }
 TEST_P(InThePlane, SumOverPointsAsPrinted) {
   run_both<LinearElastic, 2>(plane_mesh(GetParam(), 10), elastic(), 13, 200,
@@ -110,6 +114,9 @@ TEST_P(InThePlane, BodyOfRevolutionOfSubloadingSoil) {
 }
 TEST_P(InSpace, LinearElastic) {
   run_both<LinearElastic, 3>(solid_mesh(GetParam(), 6), elastic(), 8, 150, all_on);
+}
+TEST_P(InSpace, LinearElasticOnAWallByMotion) {
+  run_both<LinearElastic, 3>(solid_mesh(GetParam(), 6), elastic(), 8, 150, by_motion);
 }
 TEST_P(InSpace, Subloading) {
   run_both<Subloading, 3>(solid_mesh(GetParam(), 6), subloading(), 8, 200, all_on, 0.5);

@@ -188,7 +188,8 @@ void run_stage(Context<Dim>& context, int index, StageRecord& record) {
                               input.method.corrected_quadrature ? Quadrature::corrected : Quadrature::points,
                               {input.method.tolerance, 1e-5},
                               input.method.remove_leaving,
-                              profile};
+                              profile,
+                              WallRule::by_motion};
   Clock frames(ledger.time, input.output.every), rows(ledger.time, input.output.history);
   double critical = critical_time_step(body);
   bool resting = false, first = true;

@@ -37,18 +37,23 @@ bool is_resisted(const Body<Dim>& body, int n, double damping) {
 /// Local damping of the force F against the motion, and the conditions: changes a = F / m, notes what is held and the
 /// resistance; F becomes what of it is not balanced.
 template <int Dim>
-[[gnu::noinline]] void resist(Body<Dim>& body, int n, double dt, double damping, Vec<Dim>& F, Vec<Dim>& a) {
+[[gnu::noinline]] void resist(Body<Dim>& body, int n, double dt, const StepSettings& settings, Vec<Dim>& F,
+                              Vec<Dim>& a) {
+  const double damping = settings.damping;
+  // A wall takes the force along its normal: none of it is out of balance, and friction must not feel it damped.
+  const bool pressed =
+      settings.wall == WallRule::by_motion && reaches_wall<Dim>(body.conditions, n, body.buffers.node[n].v, dt, a);
   Node<Dim>& node = body.buffers.node[n];
   Resistance<Dim>& resistance = body.buffers.resistance[n];
   resistance = {};
   for (int j = 0; j < Dim; ++j) {
-    if (damping != 0 && node.v[j] != 0) {
+    if (damping != 0 && node.v[j] != 0 && !(pressed && j == body.conditions.normal[n])) {
       resistance.F_damping[j] = -std::copysign(damping * std::abs(F[j]), node.v[j]);
     }
     a[j] = (F[j] + resistance.F_damping[j]) * node.per_mass;
   }
   if (!is_free(body.conditions, n)) {
-    const auto reaction = constrain_acceleration<Dim>(body.conditions, n, node.m, node.v, dt, a);
+    const auto reaction = constrain_acceleration<Dim>(body.conditions, settings.wall, n, node.m, node.v, dt, a);
     node.held = reaction.held;
     resistance.F_friction = reaction.friction;
   }
@@ -75,7 +80,7 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
   }
   const bool resisted = is_resisted(body, n, settings.damping);
   if (resisted) [[unlikely]]
-    resist<Dim>(body, n, dt, settings.damping, F, a);
+    resist<Dim>(body, n, dt, settings, F, a);
   auto& motion = body.buffers.motion[n];
   for (int j = 0; j < Dim; ++j) motion.dv(j) = a[j] * dt;
   if (settings.flip == 1) return F;
@@ -84,7 +89,7 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
     body.buffers.a_dt[n][j] = a[j] * dt;
     v_next[j] = node.v[j] + a[j] * dt;
   }
-  if (resisted) constrain_velocity<Dim>(body.conditions, n, node.held, v_next);
+  if (resisted) constrain_velocity<Dim>(body.conditions, settings.wall, n, node.held, v_next);
   for (int j = 0; j < Dim; ++j) motion.dv(j) = settings.flip * a[j] * dt + (1 - settings.flip) * v_next[j];
   return F;
 }
@@ -133,7 +138,7 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
           damping -= resistance.F_damping[j] * path;
           friction -= resistance.F_friction[j] * path;
         }
-        constrain_velocity<Dim>(body.conditions, n, node.held, v);
+        constrain_velocity<Dim>(body.conditions, settings.wall, n, node.held, v);
       }
       auto& motion = body.buffers.motion[n];
       for (int j = 0; j < Dim; ++j) {

@@ -18,6 +18,7 @@ struct StepSettings {
   IntegrationSettings integration;
   bool remove_leaving = false;  ///< a point that leaves the mesh is taken out, instead of an error
   bool profile = false;         ///< book the time of each Phase
+  WallRule wall = WallRule::by_acceleration;
 };
 
 /// Advances the body by dt. Throws RunError where a point leaves the mesh (unless it is to be removed).
