@@ -114,11 +114,12 @@ struct MethodInput {
   double flip = 1.0;  ///< share of FLIP in the velocity update; 1 is the report's
   GridFunctions shape = GridFunctions::linear;
   Position shape_position;
-  bool corrected_quadrature = true;  ///< inside the soil; false: eq. 4 of the report as printed
-  double safety = 0.5;               ///< of the critical time step
-  double tolerance = 1e-4;           ///< of the stress integration, relative
-  bool remove_leaving = false;       ///< a point that leaves the mesh is removed and counted, instead of an error
-  int largest_failures = 0;          ///< failed stress updates before the run stops
+  bool corrected_quadrature = true;   ///< inside the soil; false: eq. 4 of the report as printed
+  double safety = 0.5;                ///< of the critical time step
+  double tolerance = 1e-4;            ///< of the stress integration, relative
+  bool remove_leaving = false;        ///< a point that leaves the mesh is removed and counted, instead of an error
+  int largest_failures = 0;           ///< failed stress updates before the run stops
+  double largest_energy_error = 0.2;  ///< of the energies of the run, before it stops (run/energy_check.hpp); 0: any
 };
 
 /// [output]

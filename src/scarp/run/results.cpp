@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scarp/base/error.hpp"
+#include "scarp/base/log.hpp"
 #include "scarp/base/version.hpp"
 #include "scarp/io/file.hpp"
 #include "scarp/io/history.hpp"
@@ -208,6 +209,8 @@ void Results<Dim>::summary(const Body<Dim>& body, const Ledger<Dim>& ledger, con
                                        {"ns_per_point_step", 1e9 * record.wall_seconds / work},
                                        {"mass_error", ledger.mass_error()},
                                        {"energy_error", record.energy_error},
+                                       {"largest_energy_error", record.largest_energy_error},
+                                       {"warnings", logging::warnings()},
                                        {"removed_points", ledger.removed_points},
                                        {"failures", ledger.failures},
                                        {"corrected", ledger.corrected},
