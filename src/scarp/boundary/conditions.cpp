@@ -110,15 +110,10 @@ Reaction<Dim> constrain_acceleration(const Conditions<Dim>& conditions, WallRule
 template <int Dim>
 void constrain_velocity(const Conditions<Dim>& conditions, WallRule rule, int n, std::uint8_t held, Vec<Dim>& v) {
   const int normal = conditions.normal[n];
-  unsigned stopped = held;
-  if (rule == WallRule::by_motion) {
-    // What sticks has come to rest by its acceleration; overwriting it would part nodes from their points.
-    stopped &= conditions.fixed[n] | (normal >= 0 ? 1u << normal : 0u);
-  } else if (normal >= 0 && conditions.inward[n] * v[normal] < 0) {
-    v[normal] = 0;
-  }
+  const unsigned set = set_components(conditions, rule, n, held);
+  if (rule == WallRule::by_acceleration && normal >= 0 && conditions.inward[n] * v[normal] < 0) v[normal] = 0;
   for (int j = 0; j < Dim; ++j) {
-    if (stopped & (1u << j)) v[j] = 0;
+    if (set & (1u << j)) v[j] = 0;
   }
 }
 

@@ -66,6 +66,15 @@ template <int Dim>
 Reaction<Dim> constrain_acceleration(const Conditions<Dim>& conditions, WallRule rule, int n, double m,
                                      const Vec<Dim>& v, double dt, Vec<Dim>& a);
 
+/// Bits of the components of node n whose velocity v^{t+dt} is set, not computed; `held` is that of its Reaction. What
+/// sticks to a wall by motion has come to rest by its acceleration: setting it would part the node from its points.
+template <int Dim>
+inline unsigned set_components(const Conditions<Dim>& conditions, WallRule rule, int n, std::uint8_t held) {
+  if (rule == WallRule::by_acceleration) return held;
+  const int normal = conditions.normal[n];
+  return held & (conditions.fixed[n] | (normal >= 0 ? 1u << normal : 0u));
+}
+
 /// Step 5 with conditions: makes the velocity v^{t+dt} of node n respect them; `held` is that of its Reaction.
 template <int Dim>
 void constrain_velocity(const Conditions<Dim>& conditions, WallRule rule, int n, std::uint8_t held, Vec<Dim>& v);

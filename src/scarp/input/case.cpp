@@ -85,6 +85,7 @@ StageInputOf<Dim> read_stage(const Node& node, const std::string& case_path) {
   stage.duration = table.number("duration", positive, "add the time that the stage takes at most, in seconds");
   stage.damping = table.number_or("damping", {0, 1, false, true}, 0);
   if (const Node* flip = table.find("flip")) stage.flip = number_in(*flip, "flip", {0, 1});
+  stage.release = table.number_or("release", {0, stage.duration}, 0);
   stage.zero_displacement = table.truth_or("zero_displacement", false);
   stage.zero_velocity = table.truth_or("zero_velocity", false);
   if (const Node* remove = table.find("remove")) stage.remove = read_removal<Dim>(*remove, stage.duration, case_path);

@@ -101,6 +101,7 @@ struct StageInputOf {
   double duration = 0;             ///< [s]
   double damping = 0;              ///< local (non-viscous) damping coefficient, 0 to below 1
   std::optional<double> flip;      ///< overrides MethodInput::flip
+  double release = 0;              ///< time over which the initial imbalance is let go [s]
   bool zero_displacement = false;  ///< set displacements and eps_q to zero at the start
   bool zero_velocity = false;      ///< set velocities to zero at the start
   std::optional<RemovalInputOf<Dim>> remove;

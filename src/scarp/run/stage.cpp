@@ -126,6 +126,28 @@ template <int Dim>
       "look at the last frame: either the slope does not stand, or the stage needs more time or more damping");
 }
 
+/// Lets go, over `release` seconds from the start of a stage, of the imbalance with which it starts.
+template <int Dim>
+class LettingGo {
+ public:
+  LettingGo(double release, double start, Body<Dim>& body) : release_(release), start_(start), body_(body) {}
+  ~LettingGo() { body_.release.share = 0; }
+  LettingGo(const LettingGo&) = delete;
+  LettingGo& operator=(const LettingGo&) = delete;
+
+  void before_step(double time, const StepSettings& settings) {
+    if (!held_ && release_ > 0) hold_imbalance(body_, settings);
+    held_ = true;
+    if (release_ > 0) body_.release.share = std::max(0.0, 1 - (time - start_) / release_);
+  }
+  bool finished(double time) const { return time >= start_ + release_; }
+
+ private:
+  double release_, start_;
+  bool held_ = false;
+  Body<Dim>& body_;
+};
+
 /// Keeps the record of a stage true at its end, whichever way it ends.
 template <int Dim>
 class RecordKeeper {
@@ -169,12 +191,14 @@ void run_stage(Context<Dim>& context, int index, StageRecord& record) {
                               input.method.remove_leaving,
                               profile,
                               WallRule::by_motion};
+  LettingGo<Dim> imbalance(stage.release, ledger.time, body);
   Clock frames(ledger.time, input.output.every), rows(ledger.time, input.output.history);
   double critical = critical_time_step(body);
   bool resting = false, first = true, energy_said = energy.largest_ratio() > EnergyCheck::worth_a_warning;
 
   while (ledger.time < end && !resting && !interrupted()) {
     if (removal) removal->take_due(ledger.time, body, ledger);
+    imbalance.before_step(ledger.time, settings);
     const double next_lift = removal ? removal->next_time() : end;
     const double until = std::min({end, frames.next(), next_lift}) - ledger.time;
     const double dt = fitted(stable_time_step(context, critical), until);
@@ -184,7 +208,7 @@ void run_stage(Context<Dim>& context, int index, StageRecord& record) {
     if (end - ledger.time < 1e-9 * dt) ledger.time = end;
     critical = books.stress.critical_dt;
     ++record.steps;
-    resting = rest && rest->at_rest(ledger) && (!removal || removal->finished());
+    resting = rest && rest->at_rest(ledger) && (!removal || removal->finished()) && imbalance.finished(ledger.time);
 
     if (input.output.history <= 0 || rows.due(ledger.time) || first) results.history(index, body.point_count(), ledger);
     if (frames.due(ledger.time) || (first && stage.remove)) results.frame(body, ledger.time);

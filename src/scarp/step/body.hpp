@@ -11,6 +11,7 @@
 #include "scarp/mesh/mesh.hpp"
 #include "scarp/points/points.hpp"
 #include "scarp/step/books.hpp"
+#include "scarp/step/release.hpp"
 #include "scarp/transfer/transfer.hpp"
 
 namespace scarp {
@@ -62,6 +63,7 @@ struct Body {
   Locator<Dim> locator;
   Conditions<Dim> conditions;
   Vec<Dim> gravity;
+  Release<Dim> release;
   std::vector<Block<Dim>> blocks;
 
   ActiveElements active;

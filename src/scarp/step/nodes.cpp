@@ -76,6 +76,7 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
   for (int j = 0; j < Dim; ++j) {
     node.v[j] = p[j] * per_mass;
     F[j] = m * body.gravity[j] - F_int[j];
+    if (body.release.active()) F[j] += body.release.force(n, j, m);
     a[j] = F[j] * per_mass;
   }
   const bool resisted = is_resisted(body, n, settings.damping);
@@ -122,7 +123,7 @@ void accelerate_nodes(Body<Dim>& body, double dt, const StepSettings& settings, 
 template <int Dim>
 void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
   for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>& part) {
-    double damping = 0, friction = 0;
+    double damping = 0, friction = 0, release = 0;
     Vec<Dim> m_du{};
     for (int k = first; k < last; ++k) {
       const int n = body.assembly.node(k);
@@ -131,6 +132,12 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
       const auto dp = gathered<transfer::momentum_size<Dim>>(body, k, body.buffers.momentum);
       Vec<Dim> v;
       for (int j = 0; j < Dim; ++j) v[j] = settings.flip * node.v[j] + dp[j] * node.per_mass;
+      if (body.release.active()) [[unlikely]] {
+        Vec<Dim> path;
+        for (int j = 0; j < Dim; ++j) path[j] = 0.5 * (node.v[j] + v[j]) * dt;
+        release +=
+            work_of<Dim>(body.release, n, node.m, set_components(body.conditions, settings.wall, n, node.held), path);
+      }
       if (is_resisted(body, n, settings.damping)) [[unlikely]] {
         const auto& resistance = body.buffers.resistance[n];
         for (int j = 0; j < Dim; ++j) {
@@ -148,6 +155,7 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
     }
     part.dissipation_damping = damping;
     part.dissipation_friction = friction;
+    part.work_release = release;
     for (int j = 0; j < Dim; ++j) part.work_gravity += m_du[j] * body.gravity[j];
   });
 }
