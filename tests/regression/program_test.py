@@ -252,6 +252,15 @@ class Failures(ProgramTest):
         self.write("fine.toml", text)
         self.scarp("run", "fine.toml", "--quiet")
 
+    def test_books_of_energy_that_do_not_close(self):
+        # No step of finite length closes them to a millionth.
+        text = replaced(COLUMN, "spacing = 0.25", "spacing = 0.25\nvelocity = [0.0, -0.1]")
+        strict = replaced(text, "[[material]]", "[method]\nlargest_energy_error = 1e-6\n\n[[material]]")
+        summary = self.expect_failure(strict, "the books of energy do not close at t = 0.", "largest_energy_error: 1e-06", "safety")
+        self.assertEqual(summary["stages"][0]["ended"], "failed")
+        self.scarp("run", "fails.toml", "--quiet", "--out", "r", "--set", "method.largest_energy_error=0")
+        self.assertGreater(json.loads(read(self.path("r", "summary.json")))["largest_energy_error"], 1e-6)
+
     def test_a_removal_that_leaves_nothing(self):
         polygon = "[[-1.0, -1.0], [2.0, -1.0], [2.0, 5.0], [-1.0, 5.0]]"
         self.expect_failure(replaced(COLUMN, "damping = 0.5", f"remove = {{ polygon = {polygon} }}"), "leaves no soil")

@@ -113,6 +113,19 @@ class Results(ProgramTest):
         for key in ("unbalanced_ratio", "max_velocity", "max_displacement"):
             self.assertTrue(math.isfinite(stage[key]) and stage[key] >= 0, key)
 
+    def test_warnings_are_said_and_kept(self):
+        self.scarp("run", "column.toml", "--quiet", "--out", "r")
+        self.assertEqual(self.summary("r")["warnings"], [])
+        self.assertLess(self.summary("r")["largest_energy_error"], 0.01)
+        # Elements of 0.5 m want points 0.25 m apart.
+        for command in ("check", "run"):
+            said = self.scarp(command, "column.toml", "--set", "region.0.spacing=0.3")
+            self.assertIn('warning: column.toml:13:1: region "column" has fewer than two points', said.stderr)
+            self.assertIn("give it spacing = 0.25 or less", said.stderr)
+        kept = self.summary("column.out")["warnings"][0]  # sparse points also upset its books of energy
+        self.assertIn("found spacing = 0.3 in elements of 0.5", kept)
+        self.assertNotIn("warning", self.scarp("check", "column.toml").stderr)
+
     def test_history_and_frames_are_at_the_times_asked_for(self):
         self.scarp("run", "column.toml", "--quiet", "--out", "r")
         times = [row["time"] for row in self.history("r")]

@@ -96,9 +96,11 @@ class Twin {
         const double sign = size > 0 ? v[n][j] / size : 0;
         a[n][j] = (force - settings.damping * std::abs(force) * sign) / m_[n];
       }
-      held_[n] = constrain_acceleration<Dim>(body_.conditions, static_cast<int>(n), m_[n], v[n], dt, a[n]).held;
+      take_back_damping(settings, n, m_[n], v[n], F[n], dt, a[n]);
+      held_[n] =
+          constrain_acceleration<Dim>(body_.conditions, scheme.wall, static_cast<int>(n), m_[n], v[n], dt, a[n]).held;
       for (int j = 0; j < Dim; ++j) v_next[n][j] = v[n][j] + a[n][j] * dt;
-      constrain_velocity<Dim>(body_.conditions, static_cast<int>(n), held_[n], v_next[n]);
+      constrain_velocity<Dim>(body_.conditions, scheme.wall, static_cast<int>(n), held_[n], v_next[n]);
     }
     // Steps 4 and 5 (eqs 6–8). What holds a node is no part of P.
     if (scheme.two_terms) {
@@ -125,18 +127,27 @@ class Twin {
     for (std::size_t n = 0; n < nodes; ++n) {
       if (m_[n] < least_mass_) continue;
       for (int j = 0; j < Dim; ++j) v_end[n][j] = momentum[n][j] / m_[n];
-      constrain_velocity<Dim>(body_.conditions, static_cast<int>(n), held_[n], v_end[n]);
+      constrain_velocity<Dim>(body_.conditions, scheme.wall, static_cast<int>(n), held_[n], v_end[n]);
     }
     if (scheme.two_terms || scheme.affine) {
       v_end = filtered(v_end);
       for (std::size_t n = 0; n < nodes; ++n)
-        constrain_velocity<Dim>(body_.conditions, static_cast<int>(n), held_[n], v_end[n]);
+        constrain_velocity<Dim>(body_.conditions, scheme.wall, static_cast<int>(n), held_[n], v_end[n]);
     }
     // Steps 6 to 11 (eqs 9–19).
     for (std::size_t k = 0; k < points.size(); ++k) strain_and_move(k, v_end, dt, settings);
   }
 
  private:
+  /// Local damping does not act along the normal of a wall by motion, where the node goes into it without.
+  void take_back_damping(const StepSettings& settings, std::size_t n, double m, const Vec<Dim>& v,
+                         const Vec<Dim>& F_int, double dt, Vec<Dim>& a) const {
+    const int normal = body_.conditions.normal[n];
+    if (normal < 0 || settings.scheme.wall != WallRule::by_motion) return;
+    const double undamped = body_.gravity[normal] - F_int[normal] / m;
+    if (body_.conditions.inward[n] * (v[normal] + undamped * dt) < 0) a[normal] = undamped;
+  }
+
   /// A point's local nodes with N_i and B̂_i, whose third component is N_i / r in a body of revolution, and the weight w
   /// of its volume; and the mean gradients of its element where the volume strain is their mean.
   struct AtPoint {

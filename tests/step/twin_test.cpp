@@ -81,6 +81,12 @@ const StepSettings plain{.integration = {1e-4, 1e-5}}, all_on{.scheme = report_s
                                                               .quadrature = Quadrature::corrected,
                                                               .integration = {1e-4, 1e-5}};
 
+/// The report's with walls that meet the motion.
+StepSettings by_motion() {
+  StepSettings s = all_on;
+  s.scheme.wall = WallRule::by_motion;
+  return s;
+}
 /// The standard, with a damping of waves that is felt and a PIC share of 3 % in a step of 1e-3.
 StepSettings two_term(double damping = 0) {
   StepSettings s{.scheme = two_term_scheme(0.03), .damping = damping, .integration = {1e-4, 1e-5}};
@@ -99,6 +105,9 @@ TEST_P(InThePlane, LinearElastic) {
 }
 TEST_P(InThePlane, LinearElasticWithDampingAndPic) {
   run_both<LinearElastic, 2>(plane_mesh(GetParam(), 10), elastic(), 13, 400, all_on);
+}
+TEST_P(InThePlane, LinearElasticOnAWallByMotion) {
+  run_both<LinearElastic, 2>(plane_mesh(GetParam(), 10), elastic(), 13, 400, by_motion());
 }
 TEST_P(InThePlane, SumOverPointsAsPrinted) {
   run_both<LinearElastic, 2>(plane_mesh(GetParam(), 10), elastic(), 13, 200,
@@ -141,6 +150,9 @@ TEST_P(InSpace, LinearElasticWithApic) {
 }
 TEST_P(InSpace, LinearElastic) {
   run_both<LinearElastic, 3>(solid_mesh(GetParam(), 6), elastic(), 8, 150, all_on);
+}
+TEST_P(InSpace, LinearElasticOnAWallByMotion) {
+  run_both<LinearElastic, 3>(solid_mesh(GetParam(), 6), elastic(), 8, 150, by_motion());
 }
 TEST_P(InSpace, Subloading) {
   run_both<Subloading, 3>(solid_mesh(GetParam(), 6), subloading(), 8, 200, all_on, 0.5);

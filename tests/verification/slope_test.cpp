@@ -90,14 +90,14 @@ void expect_accounts_in_order(const SlopeRun& slope) {
 }
 
 TEST(Slope, StandsAndFailsAfterTheCut) {
-  const auto slope = run_slope("cut", {"stage.1.duration=12.0"});
+  const auto slope = run_slope("cut", {"stage.1.duration=15.0"});
   expect_accounts_in_order(slope);
   const auto &rest = slope.summary["stages"][0], &cut = slope.summary["stages"][1];
   EXPECT_EQ(rest["ended"], "at rest");
   EXPECT_LE(rest["unbalanced_ratio"].get<double>(), 1e-3);
   EXPECT_LT(rest["max_velocity"].get<double>(), 0.01);
-  // The trial of this slope settled by 0.18 m.
-  EXPECT_NEAR(rest["max_displacement"].get<double>(), 0.18, 0.02);
+  // A static solution on finer elements settles by 0.151 m (theory.md, initial state), without the release by 0.18 m.
+  EXPECT_NEAR(rest["max_displacement"].get<double>(), 0.15, 0.02);
 
   // It fails: metres, where the uncut slope moves by a centimetre. How far depends on mesh and PIC share (4 to 8 m).
   EXPECT_GT(cut["max_displacement"].get<double>(), 3.0);
@@ -147,7 +147,8 @@ TEST(Slope, IsTheSameToTheLastBitOnOneAndTwoThreads) {
     const auto input = input::read_case(
         SCARP_EXAMPLES "/slope_cut_grid/slope_cut_grid.toml",
         {"mesh.grid={ origin = [0.0, 0.0], size = [45.0, 17.0], elements = [45, 17] }", "region.0.spacing=0.4",
-         "stage.0.duration=0.5", "stage.0.rest.required=false", "stage.1.duration=1.5", "output.history=0.0"});
+         "stage.0.duration=0.5", "stage.0.release=0.4", "stage.0.rest.required=false", "stage.1.remove.over=1.0",
+         "stage.1.duration=1.5", "output.history=0.0"});
     run::run_case(input, {out.string(), threads, true});
     for (const auto& file : fs::directory_iterator(out)) {
       const auto name = file.path().filename().string();

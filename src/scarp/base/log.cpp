@@ -2,6 +2,7 @@
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <mutex>
 
 namespace scarp::logging {
 namespace {
@@ -16,6 +17,9 @@ spdlog::logger& logger() {
   return instance;
 }
 
+std::mutex of_the_list;
+std::vector<std::string> list;
+
 }  // namespace
 
 void info(const std::string& text) {
@@ -23,6 +27,17 @@ void info(const std::string& text) {
 }
 void warn(const std::string& text) {
   logger().warn("warning: {}", text);
+  const std::scoped_lock lock(of_the_list);
+  list.push_back(text);
+}
+
+std::vector<std::string> warnings() {
+  const std::scoped_lock lock(of_the_list);
+  return list;
+}
+void forget_warnings() {
+  const std::scoped_lock lock(of_the_list);
+  list.clear();
 }
 
 }  // namespace scarp::logging

@@ -2,10 +2,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace scarp::logging {
 
 void info(const std::string& text);
 void warn(const std::string& text);
+
+/// The warnings since the start, or since they were last forgotten: for summary.json.
+std::vector<std::string> warnings();
+void forget_warnings();
 
 }  // namespace scarp::logging

@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "scarp/base/log.hpp"
 #include "scarp/input/readers.hpp"
 
 namespace scarp::input {
@@ -84,6 +85,7 @@ StageInputOf<Dim> read_stage(const Node& node, const std::string& case_path) {
   stage.duration = table.number("duration", positive, "add the time that the stage takes at most, in seconds");
   stage.damping = table.number_or("damping", {0, 1, false, true}, 0);
   if (const Node* flip = table.find("flip")) stage.flip = number_in(*flip, "flip", {0, 1});
+  stage.release = table.number_or("release", {0, stage.duration}, 0);
   stage.zero_displacement = table.truth_or("zero_displacement", false);
   stage.zero_velocity = table.truth_or("zero_velocity", false);
   if (const Node* remove = table.find("remove")) stage.remove = read_removal<Dim>(*remove, stage.duration, case_path);
@@ -179,6 +181,7 @@ MethodInput read_method(const Node& node) {
   }
   method.safety = table.number_or("safety", {0, 1, true, false}, method.safety);
   method.tolerance = table.number_or("tolerance", {1e-12, 0.1}, method.tolerance);
+  method.largest_energy_error = table.number_or("largest_energy_error", not_negative, method.largest_energy_error);
   method.largest_failures = table.whole_or("largest_failures", 0, 1000000000, 0);
   if (const Node* leaving = table.find("leaving")) {
     const auto word = text_in(*leaving, "leaving");
@@ -257,6 +260,7 @@ CaseOf<Dim> read_tables(Table& table, const std::string& path) {
 }  // namespace
 
 AnyCase read_any_case(const std::string& path, const std::vector<std::string>& overrides) {
+  logging::forget_warnings();  // of an earlier case
   Node document = parse_file(path);
   for (const auto& text : overrides) apply_override(document, text);
   document.position = {path, 0, 0};

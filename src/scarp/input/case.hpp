@@ -101,6 +101,7 @@ struct StageInputOf {
   double duration = 0;             ///< [s]
   double damping = 0;              ///< local (non-viscous) damping coefficient, 0 to below 1
   std::optional<double> flip;      ///< overrides MethodInput::flip, of the report's scheme
+  double release = 0;              ///< time over which the initial imbalance is let go [s]
   bool zero_displacement = false;  ///< set displacements and eps_q to zero at the start
   bool zero_velocity = false;      ///< set velocities to zero at the start
   std::optional<RemovalInputOf<Dim>> remove;
@@ -122,11 +123,12 @@ struct MethodInput {
   double stress_damping_time = 0;        ///< β [s], in place of ξ where positive
   GridFunctions shape = GridFunctions::linear;
   Position shape_position;
-  bool corrected_quadrature = true;  ///< inside the soil; false: eq. 4 of the report as printed
-  double safety = 0.8;               ///< of the critical time step; 0.5 unless given with scheme "report"
-  double tolerance = 1e-4;           ///< of the stress integration, relative
-  bool remove_leaving = false;       ///< a point that leaves the mesh is removed and counted, instead of an error
-  int largest_failures = 0;          ///< failed stress updates before the run stops
+  bool corrected_quadrature = true;   ///< inside the soil; false: eq. 4 of the report as printed
+  double safety = 0.8;                ///< of the critical time step; 0.5 unless given with scheme "report"
+  double tolerance = 1e-4;            ///< of the stress integration, relative
+  bool remove_leaving = false;        ///< a point that leaves the mesh is removed and counted, instead of an error
+  int largest_failures = 0;           ///< failed stress updates before the run stops
+  double largest_energy_error = 0.2;  ///< of the energies of the run, before it stops (run/energy_check.hpp); 0: any
 };
 
 /// [output]

@@ -10,12 +10,7 @@ void Ledger<Dim>::add(double step, int points, const StepBooks<Dim>& books) {
   point_steps += points;
   last = books;
   search += books.search;
-  work_gravity += books.work_gravity;
-  work_stress += books.work_stress;
-  dissipation_damping += books.dissipation_damping;
-  dissipation_friction += books.dissipation_friction;
-  dissipation_pic += books.dissipation_pic;
-  dissipation_waves += books.dissipation_waves;
+  for (const auto& term : balance()) this->*term.sum += books.*term.of_step;
   removed_kinetic_energy += books.removed_energy;
   removed_mass += books.removed_mass;
   removed_points += books.removed;
@@ -23,6 +18,29 @@ void Ledger<Dim>::add(double step, int points, const StepBooks<Dim>& books) {
   failures += books.stress.failures;
   corrected += books.stress.corrected;
   substeps += books.stress.substeps;
+}
+
+template <int Dim>
+auto Ledger<Dim>::balance() -> const std::array<Term, terms>& {
+  using L = Ledger;
+  using B = StepBooks<Dim>;
+  static constexpr std::array<Term, terms> list = {{
+      {"work_gravity", &L::work_gravity, &B::work_gravity, 1},
+      {"work_stress", &L::work_stress, &B::work_stress, -1},
+      {"work_release", &L::work_release, &B::work_release, 1, false},
+      {"dissipation_damping", &L::dissipation_damping, &B::dissipation_damping, -1},
+      {"dissipation_friction", &L::dissipation_friction, &B::dissipation_friction, -1},
+      {"dissipation_pic", &L::dissipation_pic, &B::dissipation_pic, -1},
+      {"dissipation_waves", &L::dissipation_waves, &B::dissipation_waves, -1},
+  }};
+  return list;
+}
+
+template <int Dim>
+double Ledger<Dim>::energy_error() const {
+  double balanced = 0;
+  for (const auto& term : balance()) balanced += term.sign * this->*term.sum;
+  return last.kinetic_energy - initial_kinetic_energy + removed_kinetic_energy - balanced;
 }
 
 template struct Ledger<2>;

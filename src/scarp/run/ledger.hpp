@@ -18,7 +18,7 @@ struct Ledger {
   SearchCounts search;
   double initial_mass = 0, removed_mass = 0;
   double initial_kinetic_energy = 0, removed_kinetic_energy = 0;
-  double work_gravity = 0, work_stress = 0;
+  double work_gravity = 0, work_stress = 0, work_release = 0;
   double dissipation_damping = 0, dissipation_friction = 0, dissipation_pic = 0, dissipation_waves = 0;
   std::array<double, phases> seconds{};  ///< of each Phase; only where asked for
   std::int64_t removed_points = 0, failures = 0, corrected = 0, substeps = 0;
@@ -26,12 +26,19 @@ struct Ledger {
   /// Books one step over `points` points.
   void add(double step, int points, const StepBooks<Dim>& books);
 
-  /// Kinetic energy that nobody accounts for: ΔE_kin + removed − (work of gravity − work of stress − dissipation).
-  double energy_error() const {
-    return last.kinetic_energy - initial_kinetic_energy + removed_kinetic_energy -
-           (work_gravity - work_stress - dissipation_damping - dissipation_friction - dissipation_pic -
-            dissipation_waves);
-  }
+  /// A term of the balance of energy, the change of kinetic energy by it being `sign` times its sum.
+  struct Term {
+    const char* key;  ///< column of history.csv
+    double Ledger::*sum;
+    double StepBooks<Dim>::*of_step;
+    int sign;
+    bool always = true;  ///< has its column in every run, not only in those that have use for it
+  };
+  static constexpr int terms = 7;
+  static const std::array<Term, terms>& balance();
+
+  /// Kinetic energy that nobody accounts for: ΔE_kin + removed − the sum of all terms of the balance.
+  double energy_error() const;
   /// Relative to the initial mass.
   double mass_error() const {
     return initial_mass > 0 ? (last.mass + removed_mass - initial_mass) / initial_mass : 0.0;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scarp/base/error.hpp"
+#include "scarp/base/log.hpp"
 #include "scarp/base/version.hpp"
 #include "scarp/io/file.hpp"
 #include "scarp/io/history.hpp"
@@ -20,34 +21,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> history_columns(int dimension) {
-  std::vector<std::string> columns = {"time",
-                                      "dt",
-                                      "stage",
-                                      "points",
-                                      "mass",
-                                      "momentum_x",
-                                      "momentum_y",
-                                      "kinetic_energy",
-                                      "work_gravity",
-                                      "work_stress",
-                                      "dissipation_damping",
-                                      "dissipation_friction",
-                                      "dissipation_pic",
-                                      "dissipation_waves",
-                                      "energy_removed",
-                                      "energy_error",
-                                      "max_velocity",
-                                      "unbalanced_ratio",
-                                      "substeps_mean",
-                                      "substeps_max",
-                                      "failures",
-                                      "corrected",
-                                      "separated",
-                                      "on_floor",
-                                      "no_stiffness",
-                                      "removed_points"};
-  if (dimension == 3) columns.insert(std::find(columns.begin(), columns.end(), "kinetic_energy"), "momentum_z");
+/// Has this case use for a term of the balance of energy?
+template <int Dim>
+bool is_used(const typename Ledger<Dim>::Term& term, const input::CaseOf<Dim>& input) {
+  return term.always ||
+         std::any_of(input.stages.begin(), input.stages.end(), [](const auto& stage) { return stage.release > 0; });
+}
+
+template <int Dim>
+std::vector<std::string> history_columns(const input::CaseOf<Dim>& input) {
+  std::vector<std::string> columns = {"time", "dt", "stage", "points", "mass", "momentum_x", "momentum_y"};
+  if (Dim == 3) columns.emplace_back("momentum_z");
+  columns.emplace_back("kinetic_energy");
+  for (const auto& term : Ledger<Dim>::balance()) {
+    if (is_used<Dim>(term, input)) columns.emplace_back(term.key);
+  }
+  const std::initializer_list<const char*> rest = {"energy_removed", "energy_error", "max_velocity", "unbalanced_ratio",
+                                                   "substeps_mean",  "substeps_max", "failures",     "corrected",
+                                                   "separated",      "on_floor",     "no_stiffness", "removed_points"};
+  columns.insert(columns.end(), rest.begin(), rest.end());
   return columns;
 }
 
@@ -140,7 +132,7 @@ Results<Dim>::Results(const input::CaseOf<Dim>& input, const std::string& folder
   io::write_whole(folder_ + "/case.toml", case_text);
   io::write_mesh_vtu(folder_ + "/mesh.vtu", *body.mesh);
   writers_ = std::make_unique<Writers>(io::PvdWriter(folder_ + "/points.pvd"),
-                                       io::HistoryWriter(folder_ + "/history.csv", history_columns(Dim)));
+                                       io::HistoryWriter(folder_ + "/history.csv", history_columns(input)));
 }
 
 template <int Dim>
@@ -161,33 +153,25 @@ void Results<Dim>::history(int stage, int points, const Ledger<Dim>& l) {
   if (l.time == writers_->last_row) return;
   writers_->last_row = l.time;
   const auto& stress = l.last.stress;
-  std::vector<double> row = {l.time,
-                             l.dt,
-                             static_cast<double>(stage),
-                             static_cast<double>(points),
-                             l.last.mass,
-                             l.last.momentum[0],
-                             l.last.momentum[1],
-                             l.last.kinetic_energy,
-                             l.work_gravity,
-                             l.work_stress,
-                             l.dissipation_damping,
-                             l.dissipation_friction,
-                             l.dissipation_pic,
-                             l.dissipation_waves,
-                             l.removed_kinetic_energy,
-                             l.energy_error(),
-                             l.last.max_velocity,
-                             l.unbalanced_ratio(),
-                             points > 0 ? static_cast<double>(stress.substeps) / points : 0.0,
-                             static_cast<double>(stress.most_substeps),
-                             static_cast<double>(l.failures),
-                             static_cast<double>(l.corrected),
-                             static_cast<double>(stress.separated),
-                             static_cast<double>(stress.on_floor),
-                             static_cast<double>(stress.no_stiffness),
-                             static_cast<double>(l.removed_points)};
-  if constexpr (Dim == 3) row.insert(row.begin() + 7, l.last.momentum[2]);
+  std::vector<double> row = {l.time, l.dt, static_cast<double>(stage), static_cast<double>(points), l.last.mass};
+  row.insert(row.end(), l.last.momentum.begin(), l.last.momentum.end());
+  row.push_back(l.last.kinetic_energy);
+  for (const auto& term : Ledger<Dim>::balance()) {
+    if (is_used<Dim>(term, input_)) row.push_back(l.*term.sum);
+  }
+  const std::initializer_list<double> rest = {l.removed_kinetic_energy,
+                                              l.energy_error(),
+                                              l.last.max_velocity,
+                                              l.unbalanced_ratio(),
+                                              points > 0 ? static_cast<double>(stress.substeps) / points : 0.0,
+                                              static_cast<double>(stress.most_substeps),
+                                              static_cast<double>(l.failures),
+                                              static_cast<double>(l.corrected),
+                                              static_cast<double>(stress.separated),
+                                              static_cast<double>(stress.on_floor),
+                                              static_cast<double>(stress.no_stiffness),
+                                              static_cast<double>(l.removed_points)};
+  row.insert(row.end(), rest.begin(), rest.end());
   writers_->history.row(row);
 }
 
@@ -210,6 +194,8 @@ void Results<Dim>::summary(const Body<Dim>& body, const Ledger<Dim>& ledger, con
                                        {"ns_per_point_step", 1e9 * record.wall_seconds / work},
                                        {"mass_error", ledger.mass_error()},
                                        {"energy_error", record.energy_error},
+                                       {"largest_energy_error", record.largest_energy_error},
+                                       {"warnings", logging::warnings()},
                                        {"removed_points", ledger.removed_points},
                                        {"failures", ledger.failures},
                                        {"corrected", ledger.corrected},

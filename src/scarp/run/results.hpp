@@ -27,7 +27,7 @@ struct RunRecord {
   std::string message;  ///< of a failure
   double wall_seconds = 0;
   int threads = 1;
-  double energy_error = 0;  ///< see docs/output.md
+  double energy_error = 0, largest_energy_error = 0;  ///< see docs/output.md
   std::vector<StageRecord> stages;
 };
 

@@ -9,8 +9,11 @@
 #include <numeric>
 
 #include "scarp/base/error.hpp"
+#include "scarp/base/log.hpp"
 #include "scarp/exec/parallel.hpp"
+#include "scarp/run/advice.hpp"
 #include "scarp/run/build.hpp"
+#include "scarp/run/rest_watch.hpp"
 #include "scarp/run/results.hpp"
 #include "scarp/run/scheme.hpp"
 #include "scarp/run/stage.hpp"
@@ -40,24 +43,6 @@ class SignalGuard {
   void (*old_term_)(int);
 };
 
-/// The account since the cut, or since the start of a run without one: the energy error over the work of gravity.
-class EnergyCheck {
- public:
-  template <int Dim>
-  void start(const Ledger<Dim>& ledger) {
-    error_ = ledger.energy_error();
-    work_ = ledger.work_gravity;
-  }
-  template <int Dim>
-  double relative(const Ledger<Dim>& ledger) const {
-    const double work = std::abs(ledger.work_gravity - work_);
-    return work > 0 ? std::abs(ledger.energy_error() - error_) / work : 0.0;
-  }
-
- private:
-  double error_ = 0, work_ = 0;
-};
-
 template <int Dim>
 Ledger<Dim> open_ledger(const Body<Dim>& body) {
   Ledger<Dim> ledger;
@@ -65,6 +50,13 @@ Ledger<Dim> open_ledger(const Body<Dim>& body) {
   ledger.initial_mass = ledger.last.mass;
   ledger.initial_kinetic_energy = ledger.last.kinetic_energy;
   return ledger;
+}
+
+/// Energies, over that of the weight, which are of no account: a fall by a thousandth of the height.
+constexpr double of_no_account = 1e-3;
+
+void say_whether_energy_closes(const EnergyCheck& energy) {
+  if (energy.largest_ratio() > EnergyCheck::worth_a_warning) logging::warn(energy_warning(energy));
 }
 
 /// How the time of the steps was spent, threads added up.
@@ -90,26 +82,29 @@ template <int Dim>
 Outcome run_in(const input::CaseOf<Dim>& input, const Options& options) {
   const int threads = exec::set_threads(options.threads);
   Body<Dim> body = build_body(input);
+  warn_of_ignored_flip(input);
+  warn_of_sparse_points(input, body);
   Ledger<Dim> ledger = open_ledger(body);
   Results<Dim> results(input, options.out, body);
 
   const SignalGuard guard;
   const std::function<bool()> interrupted = [] { return asked_to_stop.load(); };
   const auto start = std::chrono::steady_clock::now();
-  RunRecord record{"running", "", 0, threads, 0, {}};
-  EnergyCheck energy;
+  RunRecord record{"running", "", 0, threads, 0, 0, {}};
+  EnergyCheck energy(ledger, of_no_account * weight_energy(body));
   auto write_summary = [&](const std::string& status, const std::string& message) {
     record.status = status;
     record.message = message;
     record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     record.energy_error = energy.relative(ledger);
+    record.largest_energy_error = energy.largest_ratio();
     results.summary(body, ledger, record);
   };
   results.frame(body, 0);
   write_summary("running", "");
   try {
     Progress progress(options.quiet);
-    Context<Dim> context{input, body, ledger, results, progress, interrupted, options.profile};
+    Context<Dim> context{input, body, ledger, results, progress, energy, interrupted, options.profile};
     bool cut = false;
     for (int i = 0; i < static_cast<int>(input.stages.size()) && !interrupted(); ++i) {
       progress.stage(input.stages[i].name, i, static_cast<int>(input.stages.size()), latest_end(input, i, ledger.time));
@@ -123,10 +118,12 @@ Outcome run_in(const input::CaseOf<Dim>& input, const Options& options) {
     }
   } catch (const RunError& error) {
     results.frame(body, ledger.time);
+    say_whether_energy_closes(energy);
     write_summary("failed", error.what());
     throw;
   }
   if (options.profile) print_profile(ledger);
+  say_whether_energy_closes(energy);
   write_summary(interrupted() ? "interrupted" : "done", "");
   return interrupted() ? Outcome::interrupted : Outcome::done;
 }
@@ -134,6 +131,8 @@ Outcome run_in(const input::CaseOf<Dim>& input, const Options& options) {
 template <int Dim>
 std::string check_in(const input::CaseOf<Dim>& input) {
   const Body<Dim> body = build_body(input);
+  warn_of_ignored_flip(input);
+  warn_of_sparse_points(input, body);
   std::string text = fmt::format("{}: {}\n", input.path, input.title);
   text += fmt::format("  mesh: {} elements, {} nodes, {}\n", body.mesh->element_count(), body.mesh->node_count(),
                       body.mesh->grid ? "a structured grid" : "unstructured");

@@ -7,52 +7,13 @@
 #include <optional>
 
 #include "scarp/base/error.hpp"
+#include "scarp/base/log.hpp"
 #include "scarp/run/removal.hpp"
+#include "scarp/run/rest_watch.hpp"
 #include "scarp/run/scheme.hpp"
 
 namespace scarp::run {
 namespace {
-
-/// The energy that the weight of the body has over its height: the measure of a small kinetic energy.
-template <int Dim>
-double weight_energy(const Body<Dim>& body) {
-  double low = std::numeric_limits<double>::infinity(), high = -low, mass = 0;
-  for (const auto& block : body.blocks) {
-    for (int i = 0; i < block.size(); ++i) {
-      low = std::min(low, block.points.x[Dim - 1][i]);
-      high = std::max(high, block.points.x[Dim - 1][i]);
-      mass += block.points.mass[i];
-    }
-  }
-  double g2 = 0;
-  for (const double g : body.gravity) g2 += g * g;
-  return mass * std::sqrt(g2) * (high - low);
-}
-
-/// Watches whether the body is at rest for long enough.
-class RestWatch {
- public:
-  template <int Dim>
-  RestWatch(const input::RestInput& rest, const Body<Dim>& body) : rest_(rest), scale_(weight_energy(body)) {}
-
-  template <int Dim>
-  bool at_rest(const Ledger<Dim>& ledger) {
-    const bool calm = ledger.unbalanced_ratio() <= rest_.unbalanced && kinetic(ledger) <= rest_.kinetic;
-    calm_for_ = calm ? calm_for_ + ledger.dt : 0.0;
-    return calm && calm_for_ >= rest_.hold;
-  }
-
-  /// Kinetic energy in parts of the weight's.
-  template <int Dim>
-  double kinetic(const Ledger<Dim>& ledger) const {
-    return scale_ > 0 ? ledger.last.kinetic_energy / scale_ : 0;
-  }
-
- private:
-  const input::RestInput& rest_;
-  double scale_;
-  double calm_for_ = 0;  ///< [s]
-};
 
 template <int Dim>
 void set_to_zero(Body<Dim>& body, const input::StageInputOf<Dim>& stage, Ledger<Dim>& ledger) {
@@ -117,6 +78,24 @@ void check_failures(const Context<Dim>& context) {
       "[method]");
 }
 
+/// Says once that the books of energy do not close, and stops where they are far from it.
+template <int Dim>
+void check_energy(const Context<Dim>& context, bool& said) {
+  const auto& energy = context.energy;
+  if (energy.ratio() > EnergyCheck::worth_a_warning && !said) {
+    said = true;
+    context.progress.clear();
+    logging::info(energy_warning(energy));
+  }
+  const double largest = context.input.method.largest_energy_error;
+  if (largest <= 0 || energy.ratio() <= largest) return;
+  throw RunError(
+      fmt::format("the books of energy do not close at t = {:.6g} s, step {}: the motion is not that of the soil",
+                  context.ledger.time, context.ledger.steps),
+      fmt::format("{:.3g} of the run's energies unaccounted for (largest_energy_error: {:g})", energy.ratio(), largest),
+      fmt::format("{}; or allow more with largest_energy_error in [method], 0 for any", energy_remedy));
+}
+
 /// One step of the body; an error tells when it came.
 template <int Dim>
 StepBooks<Dim> step(Context<Dim>& context, double dt, const StepSettings& settings) {
@@ -148,6 +127,28 @@ template <int Dim>
       "look at the last frame: either the slope does not stand, or the stage needs more time or more damping");
 }
 
+/// Lets go, over `release` seconds from the start of a stage, of the imbalance with which it starts.
+template <int Dim>
+class LettingGo {
+ public:
+  LettingGo(double release, double start, Body<Dim>& body) : release_(release), start_(start), body_(body) {}
+  ~LettingGo() { body_.release.share = 0; }
+  LettingGo(const LettingGo&) = delete;
+  LettingGo& operator=(const LettingGo&) = delete;
+
+  void before_step(double time, const StepSettings& settings) {
+    if (!held_ && release_ > 0) hold_imbalance(body_, settings);
+    held_ = true;
+    if (release_ > 0) body_.release.share = std::max(0.0, 1 - (time - start_) / release_);
+  }
+  bool finished(double time) const { return time >= start_ + release_; }
+
+ private:
+  double release_, start_;
+  bool held_ = false;
+  Body<Dim>& body_;
+};
+
 /// Keeps the record of a stage true at its end, whichever way it ends.
 template <int Dim>
 class RecordKeeper {
@@ -175,7 +176,7 @@ class RecordKeeper {
 template <int Dim>
 void run_stage(Context<Dim>& context, int index, StageRecord& record) {
   const auto& stage = context.input.stages[index];
-  auto& [input, body, ledger, results, progress, interrupted, profile] = context;
+  auto& [input, body, ledger, results, progress, energy, interrupted, profile] = context;
   record = {stage.name, ledger.time, ledger.time, 0, 0, 0, 0, stage.remove.has_value(), "failed"};
   RecordKeeper<Dim> keeper(record, context);
   const double end = ledger.time + stage.duration;
@@ -190,27 +191,31 @@ void run_stage(Context<Dim>& context, int index, StageRecord& record) {
                               {input.method.tolerance, 1e-5},
                               input.method.remove_leaving,
                               profile};
+  LettingGo<Dim> imbalance(stage.release, ledger.time, body);
   Clock frames(ledger.time, input.output.every), rows(ledger.time, input.output.history);
   double critical = critical_time_step(body, settings.scheme);
-  bool resting = false, first = true;
+  bool resting = false, first = true, energy_said = energy.largest_ratio() > EnergyCheck::worth_a_warning;
 
   while (ledger.time < end && !resting && !interrupted()) {
     if (removal) removal->take_due(ledger.time, body, ledger);
+    imbalance.before_step(ledger.time, settings);
     const double next_lift = removal ? removal->next_time() : end;
     const double until = std::min({end, frames.next(), next_lift}) - ledger.time;
     const double dt = fitted(stable_time_step(context, critical), until);
     const auto books = step(context, dt, settings);
     ledger.add(dt, body.point_count(), books);
+    energy.step(ledger);
     if (end - ledger.time < 1e-9 * dt) ledger.time = end;
     critical = books.stress.critical_dt;
     ++record.steps;
-    resting = rest && rest->at_rest(ledger) && (!removal || removal->finished());
+    resting = rest && rest->at_rest(ledger) && (!removal || removal->finished()) && imbalance.finished(ledger.time);
 
     if (input.output.history <= 0 || rows.due(ledger.time) || first) results.history(index, body.point_count(), ledger);
     if (frames.due(ledger.time) || (first && stage.remove)) results.frame(body, ledger.time);
     first = false;
     progress.show(ledger.time, ledger.point_steps, ledger.unbalanced_ratio(), ledger.last.max_velocity);
     check_failures(context);
+    check_energy(context, energy_said);
   }
 
   keeper.update();

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "scarp/input/case.hpp"
+#include "scarp/run/energy_check.hpp"
 #include "scarp/run/ledger.hpp"
 #include "scarp/run/progress.hpp"
 #include "scarp/run/results.hpp"
@@ -20,13 +21,15 @@ struct Context {
   Ledger<Dim>& ledger;
   Results<Dim>& results;
   Progress& progress;
+  EnergyCheck& energy;
   const std::function<bool()>& interrupted;
   bool profile = false;  ///< book the time of each phase of a step
 };
 
 /// Runs stage number `index` and keeps its record. Ends early at rest, where the stage asks for it, or when
 /// interrupted. Throws RunError where the body does not come to rest but has to, where stress updates fail more often
-/// than allowed, or where a step cannot be taken; the record tells how far it came.
+/// than allowed, where the books of energy are far from closed, or where a step cannot be taken; the record tells how
+/// far it came.
 template <int Dim>
 void run_stage(Context<Dim>& context, int index, StageRecord& record);
 

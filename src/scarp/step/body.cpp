@@ -164,6 +164,7 @@ void rebuild(Body<Dim>& body) {
   buffers.node.resize(body.mesh->nodes.size());
   buffers.motion.resize(body.mesh->nodes.size());
   buffers.a_dt.resize(body.mesh->nodes.size());
+  buffers.half_path.resize(body.mesh->nodes.size());
   buffers.resistance.resize(body.mesh->nodes.size());
 }
 

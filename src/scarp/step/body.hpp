@@ -11,6 +11,7 @@
 #include "scarp/mesh/mesh.hpp"
 #include "scarp/points/points.hpp"
 #include "scarp/step/books.hpp"
+#include "scarp/step/release.hpp"
 #include "scarp/transfer/transfer.hpp"
 
 namespace scarp {
@@ -29,7 +30,6 @@ template <int Dim>
 struct Resistance {
   Vec<Dim> F_damping{};   ///< local damping
   Vec<Dim> F_friction{};  ///< of a wall
-  Vec<Dim> path{};        ///< ½ P v^t dt, half of what they work on; with a scheme of two terms
 };
 
 /// Buffers of a step.
@@ -50,6 +50,7 @@ struct Buffers {
   std::vector<Node<Dim>> node;
   std::vector<transfer::Motion<Dim>> motion;
   std::vector<Vec<Dim>> a_dt;               ///< a dt; where there is a PIC share
+  std::vector<Vec<Dim>> half_path;          ///< ½ P v^t dt: half of what forces work on; with a scheme of two terms
   std::vector<Resistance<Dim>> resistance;  ///< with damping, and where nodes are not free
   std::vector<Strains<Dim>> strains;        ///< of each thread
   std::vector<StepBooks<Dim>> books;        ///< of each chunk
@@ -64,6 +65,7 @@ struct Body {
   Locator<Dim> locator;
   Conditions<Dim> conditions;
   Vec<Dim> gravity;
+  Release<Dim> release;
   std::vector<Block<Dim>> blocks;
 
   ActiveElements active;

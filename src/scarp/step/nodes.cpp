@@ -40,17 +40,20 @@ template <int Dim>
 [[gnu::noinline]] void resist(Body<Dim>& body, int n, double dt, const StepSettings& settings, Vec<Dim>& F,
                               Vec<Dim>& a) {
   const double damping = settings.damping;
+  // A wall takes the force along its normal: none of it is out of balance, and friction must not feel it damped.
+  const bool pressed = settings.scheme.wall == WallRule::by_motion &&
+                       reaches_wall<Dim>(body.conditions, n, body.buffers.node[n].v, dt, a);
   Node<Dim>& node = body.buffers.node[n];
   Resistance<Dim>& resistance = body.buffers.resistance[n];
   resistance = {};
   for (int j = 0; j < Dim; ++j) {
-    if (damping != 0 && node.v[j] != 0) {
+    if (damping != 0 && node.v[j] != 0 && !(pressed && j == body.conditions.normal[n])) {
       resistance.F_damping[j] = -damping * std::abs(F[j]) * scheme::direction(settings.scheme, node.v[j], a[j] * dt);
     }
     a[j] = (F[j] + resistance.F_damping[j]) * node.per_mass;
   }
   if (!is_free(body.conditions, n)) {
-    const auto reaction = constrain_acceleration<Dim>(body.conditions, n, node.m, node.v, dt, a);
+    const auto reaction = constrain_acceleration<Dim>(body.conditions, settings.scheme.wall, n, node.m, node.v, dt, a);
     node.held = reaction.held;
     resistance.F_friction = reaction.friction;
   }
@@ -60,25 +63,42 @@ template <int Dim>
   }
 }
 
-/// Books the work of resistance on the path of component j.
+/// Books the work of forces on node n that are no part of the body's own, in some of its components, on the path that
+/// these make.
 template <int Dim>
-void book_resistance(const Resistance<Dim>& resistance, int j, double path, StepBooks<Dim>& books) {
-  books.dissipation_damping -= resistance.F_damping[j] * path;
-  books.dissipation_friction -= resistance.F_friction[j] * path;
+void book_work(const Body<Dim>& body, int n, const StepSettings& settings, unsigned components, const Vec<Dim>& path,
+               StepBooks<Dim>& books) {
+  const Node<Dim>& node = body.buffers.node[n];
+  if (is_resisted(body, n, settings.damping)) [[unlikely]] {
+    const auto& resistance = body.buffers.resistance[n];
+    for (int j = 0; j < Dim; ++j) {
+      if (!(components >> j & 1u)) continue;
+      books.dissipation_damping -= resistance.F_damping[j] * path[j];
+      books.dissipation_friction -= resistance.F_friction[j] * path[j];
+    }
+  }
+  if (body.release.active()) [[unlikely]] {
+    const unsigned set = set_components(body.conditions, settings.scheme.wall, n, node.held);
+    books.work_release += work_of<Dim>(body.release, n, node.m, set | ~components, path);
+  }
 }
+constexpr unsigned all_components = ~0u;
 
 /// Points that take the nodes' velocities, c = ṽ, keep of the kinetic energy what they can. The rest is booked as that
 /// of PIC: here Σ ½ m_n (ṽ² − v^t²), which forces and holds have made of what the points brought, and by the points Σ ½
 /// m_p (v_p^t² − v_p^{t+dt}²).
 template <int Dim>
-void take_velocity(Body<Dim>& body, int n, const Vec<Dim>& v_next, double dt, bool resisted, StepBooks<Dim>& books) {
+void take_velocity(Body<Dim>& body, int n, const Vec<Dim>& v_next, double dt, const StepSettings& settings,
+                   StepBooks<Dim>& books) {
   const Node<Dim>& node = body.buffers.node[n];
+  Vec<Dim> path;
   for (int j = 0; j < Dim; ++j) {
     body.buffers.motion[n].dv(j) = v_next[j];
     body.buffers.a_dt[n][j] = 0;
+    path[j] = 0.5 * (node.v[j] + v_next[j]) * dt;
     books.dissipation_pic += 0.5 * node.m * (v_next[j] * v_next[j] - node.v[j] * node.v[j]);
-    if (resisted) book_resistance(body.buffers.resistance[n], j, 0.5 * (node.v[j] + v_next[j]) * dt, books);
   }
+  book_work<Dim>(body, n, settings, all_components, path, books);
 }
 
 /// Step 3: a_n = (F_grav − F_int) / m_n (eq. 5), and what the scheme makes of it (scheme.hpp): c, by which the
@@ -97,6 +117,7 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
   for (int j = 0; j < Dim; ++j) {
     node.v[j] = p[j] * per_mass;
     F[j] = m * body.gravity[j] - F_int[j];
+    if (body.release.active()) F[j] += body.release.force(n, j, m);
     a[j] = F[j] * per_mass;
   }
   const bool resisted = is_resisted(body, n, settings.damping);
@@ -110,9 +131,9 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
     body.buffers.a_dt[n][j] = a[j] * dt;
     v_next[j] = node.v[j] + a[j] * dt;
   }
-  if (resisted) constrain_velocity<Dim>(body.conditions, n, node.held, v_next);
+  if (resisted) constrain_velocity<Dim>(body.conditions, settings.scheme.wall, n, node.held, v_next);
   if (scheme.affine) {
-    take_velocity<Dim>(body, n, v_next, dt, resisted, books);
+    take_velocity<Dim>(body, n, v_next, dt, settings, books);
   } else if (scheme.two_terms) {
     for (int j = 0; j < Dim; ++j) {
       if (node.held & (1u << j)) motion.dv(j) = 0;  // what holds a node is no part of P
@@ -166,12 +187,12 @@ void filter_changes(Body<Dim>& body, double dt, const StepSettings& settings, St
     with_sums<2 * Dim>(body, first, last, [&](const Node<Dim>& node, int n, const auto& M_w) {
       auto& motion = body.buffers.motion[n];
       auto& a_dt = body.buffers.a_dt[n];
-      const bool resisted = is_resisted(body, n, settings.damping);
+      auto& half_path = body.buffers.half_path[n];
       for (int j = 0; j < Dim; ++j) {
         const bool held = (node.held >> j & 1u) != 0;
         const double v_next = scheme::filtered(motion.du(j), M_w[Dim + j], node.per_mass, held);
         if (!held) a_dt[j] = scheme::filtered(motion.dv(j), M_w[j], node.per_mass, held);
-        if (resisted) body.buffers.resistance[n].path[j] = 0.5 * (v_next - a_dt[j]) * dt;
+        half_path[j] = 0.5 * (v_next - a_dt[j]) * dt;
         motion.dv(j) = scheme::change_of_velocity(phi, a_dt[j], 1, v_next);
       }
     });
@@ -183,27 +204,29 @@ void filter_changes(Body<Dim>& body, double dt, const StepSettings& settings, St
 /// Σ m_p du_p = Σ m_n du_n.
 template <int Dim>
 void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
-  const double phi = settings.scheme.kept(dt);
+  const Scheme& scheme = settings.scheme;
+  const double phi = scheme.kept(dt);
   for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>& part) {
     Vec<Dim> m_du{};
     with_sums<Dim>(body, first, last, [&](const Node<Dim>& node, int n, const auto& dp) {
       Vec<Dim> v;
-      for (int j = 0; j < Dim; ++j) v[j] = phi * node.v[j] + dp[j] * node.per_mass;
-      if (is_resisted(body, n, settings.damping)) [[unlikely]] {
-        for (int j = 0; j < Dim; ++j) {
-          if (settings.scheme.affine) break;                                  // booked on ṽ
-          if (settings.scheme.two_terms && !(node.held >> j & 1u)) continue;  // on P v, below
-          book_resistance(body.buffers.resistance[n], j, 0.5 * (node.v[j] + v[j]) * dt, part);
-        }
-        constrain_velocity<Dim>(body.conditions, n, node.held, v);
+      Vec<Dim> path;
+      for (int j = 0; j < Dim; ++j) {
+        v[j] = phi * node.v[j] + dp[j] * node.per_mass;
+        path[j] = 0.5 * (node.v[j] + v[j]) * dt;
       }
+      // The others: of a scheme of two terms on P v, below; of one whose points take the velocity before, on that.
+      const unsigned here = scheme.affine ? 0 : scheme.two_terms ? node.held : all_components;
+      book_work<Dim>(body, n, settings, here, path, part);
+      if (is_resisted(body, n, settings.damping)) [[unlikely]]
+        constrain_velocity<Dim>(body.conditions, scheme.wall, n, node.held, v);
       auto& motion = body.buffers.motion[n];
       for (int j = 0; j < Dim; ++j) {
         motion.du(j) = v[j] * dt;
         m_du[j] += node.m * motion.du(j);
       }
     });
-    if (settings.scheme.filters_motion()) return;
+    if (scheme.filters_motion()) return;
     for (int j = 0; j < Dim; ++j) part.work_gravity += m_du[j] * body.gravity[j];
   });
 }
@@ -214,17 +237,14 @@ void filter_displacements(Body<Dim>& body, const StepSettings& settings, StepBoo
     Vec<Dim> m_du{};
     with_sums<Dim>(body, first, last, [&](const Node<Dim>& node, int n, const auto& M_w) {
       auto& motion = body.buffers.motion[n];
-      Vec<Dim> du;
-      for (int j = 0; j < Dim; ++j)
+      Vec<Dim> du, path;
+      for (int j = 0; j < Dim; ++j) {
         du[j] = scheme::filtered(motion.du(j), M_w[j], node.per_mass, (node.held >> j & 1u) != 0);
-      if (is_resisted(body, n, settings.damping)) [[unlikely]] {
-        const auto& resistance = body.buffers.resistance[n];
-        for (int j = 0; j < Dim; ++j) {
-          if (settings.scheme.two_terms && !(node.held >> j & 1u))
-            book_resistance(resistance, j, resistance.path[j] + 0.5 * du[j], part);
-        }
-        constrain_velocity<Dim>(body.conditions, n, node.held, du);
+        path[j] = body.buffers.half_path[n][j] + 0.5 * du[j];
       }
+      if (settings.scheme.two_terms) book_work<Dim>(body, n, settings, ~static_cast<unsigned>(node.held), path, part);
+      if (is_resisted(body, n, settings.damping)) [[unlikely]]
+        constrain_velocity<Dim>(body.conditions, settings.scheme.wall, n, node.held, du);
       for (int j = 0; j < Dim; ++j) {
         motion.du(j) = du[j];
         m_du[j] += node.m * du[j];

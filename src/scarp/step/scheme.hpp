@@ -29,6 +29,7 @@
 #include <optional>
 
 #include "scarp/base/vec.hpp"
+#include "scarp/boundary/conditions.hpp"
 #include "scarp/exec/stress_update.hpp"
 
 namespace scarp {
@@ -56,8 +57,8 @@ struct Scheme {
   bool mean_dilatation = false;  ///< in full quadrilaterals, hexahedra and cells the volume strain is their mean
   double lateness = 0;  ///< η: a point may be so far (in parts of the element) beyond its element and stay in it
   bool smooth = false;  ///< local damping follows the velocity through zero instead of its sign
-  bool mends_massless = false;   ///< nodes without mass move with the others of an element
-  bool walls_by_impact = false;  ///< friction walls stop what would pass them, W1; else they hold accelerations
+  bool mends_massless = false;  ///< nodes without mass move with the others of an element
+  WallRule wall = WallRule::by_acceleration;
   StressDamping damping{0.0, 0};
 
   /// φ of a step
@@ -78,7 +79,8 @@ inline Scheme report_scheme(double flip = 1) {
 /// What all but the report's have of time, strain and elements.
 inline Scheme standard_scheme() {
   Scheme s;
-  s.middle = s.mean_dilatation = s.smooth = s.mends_massless = s.walls_by_impact = true;
+  s.middle = s.mean_dilatation = s.smooth = s.mends_massless = true;
+  s.wall = WallRule::by_motion;
   s.lateness = 0.02;
   s.damping = {};
   return s;

@@ -1,0 +1,63 @@
+#include "scarp/step/release.hpp"
+
+#include <cmath>
+
+#include "scarp/step/phases.hpp"
+#include "scarp/transfer/transfer.hpp"
+
+namespace scarp {
+namespace {
+
+/// What conditions leave of the force on a node at rest: nothing of fixed components, nor of what a wall with friction
+/// balances.
+template <int Dim>
+void take_reaction(const Conditions<Dim>& conditions, int n, Vec<Dim>& F) {
+  const int normal = conditions.normal[n];
+  const double pressed = normal >= 0 ? -conditions.inward[n] * F[normal] : 0;
+  if (pressed > 0) {
+    double along2 = 0;
+    for (int j = 0; j < Dim; ++j) along2 += j == normal || conditions.fixed[n] & (1u << j) ? 0 : F[j] * F[j];
+    const double along = std::sqrt(along2), friction = conditions.friction[n] * pressed;
+    for (int j = 0; j < Dim; ++j) {
+      if (j == normal)
+        F[j] = 0;
+      else
+        F[j] *= friction < along ? 1 - friction / along : 0;
+    }
+  }
+  for (int j = 0; j < Dim; ++j) {
+    if (conditions.fixed[n] & (1u << j)) F[j] = 0;
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void hold_imbalance(Body<Dim>& body, const StepSettings& settings) {
+  constexpr int numbers = transfer::node_sums<Dim>;
+  StepBooks<Dim> books;
+  prepare_threads(body);
+  step::map_points_to_elements(body, settings, books);
+  auto& release = body.release;
+  release.imbalance.assign(body.mesh->node_count(), {});
+  release.mass.assign(body.mesh->node_count(), 0.0);
+  for (int k = 0; k < body.assembly.size(); ++k) {
+    std::array<double, numbers> sum{};  // m, p, F_int
+    body.assembly.gather(k, [&](int place) {
+      for (int q = 0; q < numbers; ++q) sum[q] += body.buffers.sums[static_cast<std::size_t>(place) * numbers + q];
+    });
+    if (sum[0] < body.least_mass) continue;
+    const int n = body.assembly.node(k);
+    Vec<Dim>& F = release.imbalance[n];
+    for (int j = 0; j < Dim; ++j) F[j] = sum[0] * body.gravity[j] - sum[1 + Dim + j];
+    take_reaction<Dim>(body.conditions, n, F);
+    for (double& component : F) component /= sum[0];
+    release.mass[n] = sum[0];
+  }
+  release.share = 1;
+}
+
+template void hold_imbalance<2>(Body<2>&, const StepSettings&);
+template void hold_imbalance<3>(Body<3>&, const StepSettings&);
+
+}  // namespace scarp
