@@ -27,6 +27,7 @@ RestInput read_rest(const Node& node) {
   RestInput rest;
   rest.unbalanced = table.number_or("unbalanced", positive, rest.unbalanced);
   rest.kinetic = table.number_or("kinetic", positive, rest.kinetic);
+  rest.rate = table.number_or("rate", positive, rest.rate);
   rest.hold = table.number_or("hold", not_negative, rest.hold);
   rest.required = table.truth_or("required", rest.required);
   table.finish();

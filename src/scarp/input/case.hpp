@@ -90,7 +90,8 @@ using RemovalInput = RemovalInputOf<2>;
 struct RestInput {
   double unbalanced = 1e-3;  ///< unbalanced force ratio
   double kinetic = 1e-6;     ///< kinetic energy over the potential energy that the body's weight has over its height
-  double hold = 0;           ///< both for this long [s]
+  double rate = 2e-5;        ///< largest displacement of a point over `hold`, per height of the body [1/s]
+  double hold = 0;           ///< all for this long [s]
   bool required = true;      ///< not at rest by the end of the duration: an error (true) or simply the end (false)
 };
 

@@ -40,6 +40,11 @@ void Progress::stage(const std::string& name, int index, int count, double lates
   if (!quiet_ && !terminal_) fmt::print(stderr, "scarp: {}\n", stage_);
 }
 
+void Progress::stage_ended(const std::string& text) {
+  clear();
+  if (!quiet_) fmt::print(stderr, "scarp: {}: {}\n", stage_, text);
+}
+
 void Progress::show(double time, std::int64_t point_steps, double unbalanced, double velocity) {
   if (quiet_) return;
   const auto now = Clock::now();

@@ -16,6 +16,8 @@ class Progress {
 
   /// A stage begins; `latest_end` is when the run ends if no stage ends before its duration [s].
   void stage(const std::string& name, int index, int count, double latest_end);
+  /// It ends; `text` says how.
+  void stage_ended(const std::string& text);
   /// Shows the state now and then: `time` [s], work done so far as points × steps, `velocity` the largest [m/s].
   void show(double time, std::int64_t point_steps, double unbalanced, double velocity);
   /// Ends the renewed line, so that other text can follow.

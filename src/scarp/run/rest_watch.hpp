@@ -1,39 +1,48 @@
 // Is the body at rest?
 #pragma once
 
+#include <vector>
+
 #include "scarp/input/case.hpp"
 #include "scarp/run/ledger.hpp"
 #include "scarp/step/body.hpp"
 
 namespace scarp::run {
 
+/// Height of the points [m].
+template <int Dim>
+double height(const Body<Dim>& body);
+
 /// The energy that the weight of the body has over its height [kJ]: the measure of a small energy.
 template <int Dim>
 double weight_energy(const Body<Dim>& body);
 
-/// Watches whether the body is at rest for long enough.
+/// Watches whether the body is at rest for long enough, and does not creep.
+template <int Dim>
 class RestWatch {
  public:
-  template <int Dim>
-  RestWatch(const input::RestInput& rest, const Body<Dim>& body) : rest_(rest), scale_(weight_energy(body)) {}
+  RestWatch(const input::RestInput& rest, const Body<Dim>& body);
 
-  template <int Dim>
-  bool at_rest(const Ledger<Dim>& ledger) {
-    const bool calm = ledger.unbalanced_ratio() <= rest_.unbalanced && kinetic(ledger) <= rest_.kinetic;
-    calm_for_ = calm ? calm_for_ + ledger.dt : 0.0;
-    return calm && calm_for_ >= rest_.hold;
-  }
+  /// Looks at the body after a step.
+  bool at_rest(const Ledger<Dim>& ledger, const Body<Dim>& body);
 
   /// Kinetic energy in parts of the weight's.
-  template <int Dim>
-  double kinetic(const Ledger<Dim>& ledger) const {
-    return scale_ > 0 ? ledger.last.kinetic_energy / scale_ : 0;
-  }
+  double kinetic(const Ledger<Dim>& ledger) const { return energy_ > 0 ? ledger.last.kinetic_energy / energy_ : 0; }
+  /// The largest displacement of a point over `hold` seconds, or a tenth of √(height/g) where that is longer,
+  /// in heights of the body per second, when forces and energy were last small for so long; infinite if they never
+  /// were.
+  double rate() const { return rate_; }
 
  private:
-  const input::RestInput& rest_;
-  double scale_;
-  double calm_for_ = 0;  ///< [s]
+  void remember(const Body<Dim>& body);
+  double largest_path(const Body<Dim>& body) const;
+
+  input::RestInput rest_;
+  double energy_, height_, window_;
+  bool watching_ = false;                ///< were forces and energy small in the last step?
+  double calm_for_ = 0, moved_for_ = 0;  ///< how long they have been, and since when `place_` is known [s]
+  double rate_;
+  std::vector<Vec<Dim>> place_;  ///< of each point by its number, where it was `moved_for_` ago
 };
 
 }  // namespace scarp::run

@@ -101,6 +101,8 @@ nlohmann::ordered_json stages_json(const std::vector<StageRecord>& stages) {
                     {"unbalanced_ratio", stage.unbalanced_ratio},
                     {"max_velocity", stage.max_velocity},
                     {"max_displacement", stage.max_displacement},
+                    {"moved_mass", stage.moved_mass},
+                    {"moved_beyond", stage.moved_beyond},
                     {"removal", stage.removal},
                     {"ended", stage.ended}});
   }
@@ -206,22 +208,41 @@ void Results<Dim>::summary(const Body<Dim>& body, const Ledger<Dim>& ledger, con
   io::write_whole(folder_ + "/summary.json", json.dump(2) + "\n");
 }
 
-template <int Dim>
-double max_displacement(const Body<Dim>& body) {
-  double largest = 0;
+namespace {
+
+/// f(displacement, mass) of every point.
+template <int Dim, class F>
+void for_each_displacement(const Body<Dim>& body, F&& f) {
   for (const auto& block : body.blocks) {
     for (int i = 0; i < block.size(); ++i) {
       double u2 = 0;
       for (int j = 0; j < Dim; ++j) u2 += block.points.u(j, i) * block.points.u(j, i);
-      largest = std::max(largest, std::sqrt(u2));
+      f(std::sqrt(u2), block.points.mass[i]);
     }
   }
+}
+
+}  // namespace
+
+template <int Dim>
+double max_displacement(const Body<Dim>& body) {
+  double largest = 0;
+  for_each_displacement(body, [&](double u, double) { largest = std::max(largest, u); });
   return largest;
+}
+
+template <int Dim>
+double mass_moved(const Body<Dim>& body, double length) {
+  double mass = 0;
+  for_each_displacement(body, [&](double u, double m) { mass += u > length ? m : 0; });
+  return mass;
 }
 
 template class Results<2>;
 template class Results<3>;
 template double max_displacement<2>(const Body<2>&);
 template double max_displacement<3>(const Body<3>&);
+template double mass_moved<2>(const Body<2>&, double);
+template double mass_moved<3>(const Body<3>&, double);
 
 }  // namespace scarp::run

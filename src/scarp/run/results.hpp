@@ -17,6 +17,7 @@ struct StageRecord {
   double start = 0, end = 0;
   std::int64_t steps = 0;
   double unbalanced_ratio = 0, max_velocity = 0, max_displacement = 0;  ///< at its end
+  double moved_mass = 0, moved_beyond = 0;  ///< of points that have moved more than this length [m]
   bool removal = false;
   std::string ended;  ///< "at rest", "duration", "interrupted" or "failed"
 };
@@ -55,5 +56,9 @@ class Results {
 /// The largest displacement of a point [m].
 template <int Dim>
 double max_displacement(const Body<Dim>& body);
+
+/// Mass of the points whose displacement is larger than `length` [m].
+template <int Dim>
+double mass_moved(const Body<Dim>& body, double length);
 
 }  // namespace scarp::run

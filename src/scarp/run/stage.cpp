@@ -117,13 +117,26 @@ double stable_time_step(const Context<Dim>& context, double critical) {
   return context.input.method.safety * critical;
 }
 
+/// How far the soil has gone, in words.
+std::string how_far(const StageRecord& record) {
+  return fmt::format("largest displacement {:.4g} m, a mass of {:.4g} moved more than {:.3g} m",
+                     record.max_displacement, record.moved_mass, record.moved_beyond);
+}
+
 template <int Dim>
-[[noreturn]] void refuse_unrest(const input::StageInputOf<Dim>& stage, const StageRecord& record, double kinetic) {
+[[noreturn]] void refuse_unrest(const input::StageInputOf<Dim>& stage, const StageRecord& record,
+                                const Ledger<Dim>& ledger, const RestWatch<Dim>& watch) {
+  const auto& asked = *stage.rest;
+  const std::string rate =
+      std::isfinite(watch.rate())
+          ? fmt::format("a rate of displacement of {:.3g} heights per second (asked: {:g}), ", watch.rate(), asked.rate)
+          : std::string();
   throw RunError(
       fmt::format("the ground does not come to rest in stage \"{}\" within {:g} s", stage.name, stage.duration),
       fmt::format("an unbalanced force ratio of {:.3g} (asked: {:g}), a kinetic energy of {:.3g} of the weight's "
-                  "(asked: {:g}), a largest velocity of {:.3g} m/s",
-                  record.unbalanced_ratio, stage.rest->unbalanced, kinetic, stage.rest->kinetic, record.max_velocity),
+                  "(asked: {:g}), {}a largest velocity of {:.3g} m/s; {}",
+                  record.unbalanced_ratio, asked.unbalanced, watch.kinetic(ledger), asked.kinetic, rate,
+                  record.max_velocity, how_far(record)),
       "look at the last frame: either the slope does not stand, or the stage needs more time or more damping");
 }
 
@@ -149,11 +162,16 @@ class LettingGo {
   Body<Dim>& body_;
 };
 
+/// Soil counts as moved where it has gone more than this share of the body's height at the start of the stage.
+constexpr double moved_heights = 0.01;
+
 /// Keeps the record of a stage true at its end, whichever way it ends.
 template <int Dim>
 class RecordKeeper {
  public:
-  RecordKeeper(StageRecord& record, const Context<Dim>& context) : record_(record), context_(context) {}
+  RecordKeeper(StageRecord& record, const Context<Dim>& context) : record_(record), context_(context) {
+    record_.moved_beyond = moved_heights * height(context.body);
+  }
   ~RecordKeeper() { update(); }
   RecordKeeper(const RecordKeeper&) = delete;
   RecordKeeper& operator=(const RecordKeeper&) = delete;
@@ -164,6 +182,7 @@ class RecordKeeper {
     record_.unbalanced_ratio = ledger.unbalanced_ratio();
     record_.max_velocity = ledger.last.max_velocity;
     record_.max_displacement = max_displacement(context_.body);
+    record_.moved_mass = mass_moved(context_.body, record_.moved_beyond);
   }
 
  private:
@@ -177,13 +196,17 @@ template <int Dim>
 void run_stage(Context<Dim>& context, int index, StageRecord& record) {
   const auto& stage = context.input.stages[index];
   auto& [input, body, ledger, results, progress, energy, interrupted, profile] = context;
-  record = {stage.name, ledger.time, ledger.time, 0, 0, 0, 0, stage.remove.has_value(), "failed"};
+  record = {};
+  record.name = stage.name;
+  record.start = ledger.time;
+  record.removal = stage.remove.has_value();
+  record.ended = "failed";
   RecordKeeper<Dim> keeper(record, context);
   const double end = ledger.time + stage.duration;
   set_to_zero(body, stage, ledger);
   std::optional<Removal<Dim>> removal;
   if (stage.remove) removal.emplace(*stage.remove, ledger.time);
-  std::optional<RestWatch> rest;
+  std::optional<RestWatch<Dim>> rest;
   if (stage.rest) rest.emplace(*stage.rest, body);
   const StepSettings settings{scheme_of(input.method, stage.flip),
                               stage.damping,
@@ -208,7 +231,8 @@ void run_stage(Context<Dim>& context, int index, StageRecord& record) {
     if (end - ledger.time < 1e-9 * dt) ledger.time = end;
     critical = books.stress.critical_dt;
     ++record.steps;
-    resting = rest && rest->at_rest(ledger) && (!removal || removal->finished()) && imbalance.finished(ledger.time);
+    resting =
+        rest && rest->at_rest(ledger, body) && (!removal || removal->finished()) && imbalance.finished(ledger.time);
 
     if (input.output.history <= 0 || rows.due(ledger.time) || first) results.history(index, body.point_count(), ledger);
     if (frames.due(ledger.time) || (first && stage.remove)) results.frame(body, ledger.time);
@@ -220,8 +244,9 @@ void run_stage(Context<Dim>& context, int index, StageRecord& record) {
 
   keeper.update();
   record.ended = interrupted() ? "interrupted" : resting ? "at rest" : "duration";
-  if (stage.rest && stage.rest->required && !resting && !interrupted())
-    refuse_unrest(stage, record, rest->kinetic(ledger));
+  progress.stage_ended(fmt::format("{} at t = {:.4g} s; {}", record.ended == "duration" ? "over" : record.ended,
+                                   ledger.time, how_far(record)));
+  if (stage.rest && stage.rest->required && !resting && !interrupted()) refuse_unrest(stage, record, ledger, *rest);
 }
 
 template void run_stage<2>(Context<2>&, int, StageRecord&);

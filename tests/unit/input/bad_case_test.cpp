@@ -126,6 +126,7 @@ TEST(BadCase, OutOfBounds) {
       {"flip = 0.95", "@largest_failures = -1", "0 <= largest_failures", "-1", "within these bounds"},
       {"flip = 0.95", "@largest_energy_error = -1", "0 <= largest_energy_error", "-1", "within these bounds"},
       {"duration = 1.5", "duration = 1.5\n@release = 1.6", "release <= 1.5", "1.6", "within these bounds"},
+      {"hold = 0.1", "@rate = 0", "0 < rate", "0", "within these bounds"},
       {"damping = 0.7", "@damping = 1", "0 <= damping < 1", "1", "within these bounds"},
       {"damping = 0.7", "@damping = -0.1", "0 <= damping < 1", "-0.1", "within these bounds"},
       {"damping = 0.7", "@flip = 2", "0 <= flip <= 1", "2", "within these bounds"},

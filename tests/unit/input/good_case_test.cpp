@@ -114,7 +114,7 @@ TEST(GoodCase, OptionalKeys) {
                "largest_energy_error = 0.5\nleaving = \"remove\"");
   text = replaced(text, "spacing = 0.25", "spacing = 0.25\nvelocity = [1.0, -2.0]");
   text = replaced(text, "K0 = 0.6", "K0 = \"model\"");
-  text = replaced(text, "hold = 0.1", "hold = 0.1, kinetic = 1e-5, required = false");
+  text = replaced(text, "hold = 0.1", "hold = 0.1, kinetic = 1e-5, rate = 1e-4, required = false");
   text = replaced(text, "duration = 1.5", "duration = 1.5\nrelease = 1.5\nflip = 0.5\nzero_displacement = true\nzero_velocity = true");
   text = replaced(text, "[1.0, 2.0]] }", "[1.0, 2.0]], lifts = 3, over = 1.5 }");
   text = replaced(text, "every = 0.25", "every = 0.25\nhistory = 0.1\ncolour = \"R_b\"");
@@ -129,6 +129,7 @@ TEST(GoodCase, OptionalKeys) {
   EXPECT_EQ(c.regions[0].velocity, (Vec<2>{1.0, -2.0}));
   EXPECT_FALSE(c.regions[0].K0 || c.regions[0].stress);
   EXPECT_EQ(c.stages[0].rest->kinetic, 1e-5);
+  EXPECT_EQ(c.stages[0].rest->rate, 1e-4);
   EXPECT_FALSE(c.stages[0].rest->required);
   EXPECT_EQ(c.stages[1].flip, 0.5);
   EXPECT_EQ(c.stages[1].release, 1.5);
