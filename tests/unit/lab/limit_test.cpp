@@ -224,6 +224,20 @@ TEST(Limit, ASnapBackUnderStrainControlIsNamed) {
         run(isotropic_test("tresca", constants, 100, {}, {named("triaxial-drained", "eps_a", {0.02}, increments)}));
     EXPECT_NE(curve.problem.find("limit point"), std::string::npos) << curve.problem;
     EXPECT_NE(curve.problem.find("q = 80,"), std::string::npos) << curve.problem;
+    EXPECT_NE(curve.problem.find("hold strains in their place"), std::string::npos) << curve.problem;
+  }
+}
+
+// The same where plastic straining sets in: before it the soil has an answer, and just behind it none.
+TEST(Limit, ASnapBackAtTheOnsetOfPlasticStrainIsNamed) {
+  const Constants constants{{"kappa", .05}, {"lambda", .25}, {"nu", .19},   {"p_e", 3}, {"M", .73},
+                            {"M_c", .9},    {"k", .82},      {"alpha", .8}, {"xi", 0},  {"c_R", 77},
+                            {"c_beta", 0},  {"c_b", 28},     {"R_bf", 1},   {"c_a", 6}, {"p_atm", 101.325}};
+  for (const int increments : {50, 841}) {
+    const auto curve = run(isotropic_test("subloading", constants, 340, {{"R_b", 3.3}, {"OCR", 1.05}, {"a", 0.13}},
+                                          {named("triaxial-drained", "eps_a", {-0.2}, increments)}));
+    EXPECT_NE(curve.problem.find("limit point"), std::string::npos) << curve.problem;
+    EXPECT_NE(curve.problem.find("hold strains in their place"), std::string::npos) << curve.problem;
   }
 }
 
