@@ -164,7 +164,9 @@ class Specimen {
 
   /// The next increment, to the value b of the constraints.
   Step increment(const Vector6& b) {
-    const Law law(model_, *constraints_, b, leg_dt_, guesses());
+    auto places = guesses();
+    if (HasUpdate<Model>) places.resize(3);  // the leg's start has looked elsewhere
+    const Law law(model_, *constraints_, b, leg_dt_, places);
     typename Law::template State<double, 6> s{soil_, eps_};
     const auto report = scheme_ == Scheme::dormand_prince ? integrate<DormandPrince>(law, s, Share{1.0}, settings_)
                                                           : integrate<ModifiedEuler>(law, s, Share{1.0}, settings_);
