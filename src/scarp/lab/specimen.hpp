@@ -153,21 +153,23 @@ class Specimen {
   }
 
   /// Does the soil itself have no answer to some strain, whatever the constraints?
-  bool is_unstable(const Law& law) const {
+  bool is_unstable(const Law& law, const Soil& soil) const {
     if constexpr (HasUpdate<Model>) {
       return false;  // a law is not accepted with constants that make it so
     } else {
       const auto all = guesses();
-      return !std::all_of(all.begin(), all.end(), [&](const auto& d) { return law.soil_rate(soil_, d).sound; });
+      return !std::all_of(all.begin(), all.end(), [&](const auto& d) { return law.soil_rate(soil, d).sound; });
     }
   }
 
   /// The next increment, to the value b of the constraints.
   Step increment(const Vector6& b) {
-    const Law law(model_, *constraints_, b, leg_dt_, guesses());
+    auto places = guesses();
+    if (HasUpdate<Model>) places.resize(3);  // the leg's start has looked elsewhere
+    const Law law(model_, *constraints_, b, leg_dt_, places);
     typename Law::template State<double, 6> s{soil_, eps_};
-    auto report = scheme_ == Scheme::dormand_prince ? integrate<DormandPrince>(law, s, Share{1.0}, settings_)
-                                                    : integrate<ModifiedEuler>(law, s, Share{1.0}, settings_);
+    const auto report = scheme_ == Scheme::dormand_prince ? integrate<DormandPrince>(law, s, Share{1.0}, settings_)
+                                                          : integrate<ModifiedEuler>(law, s, Share{1.0}, settings_);
     const auto moved = s.eps - eps_;
     soil_ = s.soil;
     eps_ = s.eps;
@@ -176,20 +178,28 @@ class Specimen {
       if (norm(moved) > 0) last_ = moved;
       return outcome(report);
     }
-    if (is_unstable(law)) {
-      report.end = IntegrationEnd::unstable;
-      return outcome(report);
-    }
-    if (at_limit_point(law, report)) return no_solution(report.reached);
-    return outcome(report);
+    return failed(law, report);
   }
 
-  /// Did the integration give up because no strain is left that meets the constraints? Close to a limit point that for
-  /// the next bit of stress grows without bounds.
-  bool at_limit_point(const Law& law, const IntegrationReport& report) const {
-    if (HasUpdate<Model> && report.end == IntegrationEnd::unstable) return true;
+  /// Why the integration of an increment gave up: the soil is unstable, no strain is left that meets the constraints,
+  /// or the error. Close to a limit point the strain for the next bit of stress grows without bounds.
+  Step failed(const Law& law, IntegrationReport report) const {
+    if (HasUpdate<Model> && report.end == IntegrationEnd::unstable) return no_solution(report.reached);
+    bool unstable = is_unstable(law, soil_);
     const auto start = law.start(soil_);
-    return !start || norm(start->strain) > 100 * norm(last_) || (!TimeDependent<Model> && start->softness > 1000);
+    const bool soft =
+        start && (norm(start->strain) > 100 * norm(last_) || (!TimeDependent<Model> && start->softness > 1000));
+    bool limit = !start || soft;
+    if constexpr (!HasUpdate<Model>) {  // or just ahead, as where plastic straining sets in?
+      if (!unstable && !limit) {
+        const auto ahead = advanced(soil_, 1e-6, law.soil_rate(soil_, start->strain).change);
+        unstable = is_unstable(law, ahead);
+        limit = !law.start(ahead);
+      }
+    }
+    if (!unstable && limit) return no_solution(report.reached);
+    if (unstable) report.end = IntegrationEnd::unstable;
+    return outcome(report);
   }
 
   Step no_solution(double reached) const {

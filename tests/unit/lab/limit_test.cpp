@@ -134,6 +134,12 @@ TEST(Limit, StrainControlGoesOnWhereSofteningEnds) {
   }
 }
 
+/// A number of the state in a message.
+double found(const std::string& what, const std::string& message) {
+  const auto at = message.find(" " + what);
+  return at == std::string::npos ? std::nan("") : std::stod(message.substr(at + 1 + what.size()));
+}
+
 // A stress beyond the strength: every row below the strength is there, the message has the limit point, and it does not
 // take long. MCC from its normal line comes to critical state, q = M (cell + q/3), from below.
 TEST(Limit, AStressBeyondTheStrengthEndsAtTheLimitPoint) {
@@ -145,17 +151,18 @@ TEST(Limit, AStressBeyondTheStrengthEndsAtTheLimitPoint) {
     std::string model;
     Constants constants;
     Values initial;
-    double strength;
+    double strength, most_strain;
   };
   const std::vector<Case> cases{
-      {"von-mises", undrained, {}, std::sqrt(3.0) * s_u},
-      {"tresca", undrained, {}, 2 * s_u},
-      {"mohr-coulomb", sand, {}, (2 * cell * s + 2 * c * std::cos(phi * degree)) / (1 - s)},
-      {"drucker-prager", sand, {}, Cone(c, phi).q(cell)},
+      {"von-mises", undrained, {}, std::sqrt(3.0) * s_u, 0.01},
+      {"tresca", undrained, {}, 2 * s_u, 0.01},
+      {"mohr-coulomb", sand, {}, (2 * cell * s + 2 * c * std::cos(phi * degree)) / (1 - s), 0.02},
+      {"drucker-prager", sand, {}, Cone(c, phi).q(cell), 0.02},
       {"modified-cam-clay",
        {{"kappa", .02}, {"lambda", .1}, {"nu", .25}, {"p_e", 0}, {"M", 1.2}, {"p_atm", 101.325}},
        {{"OCR", 1.0}},
-       1.2 * cell / (1 - 0.4)}};
+       1.2 * cell / (1 - 0.4),
+       2}};
   for (const auto& law : cases) {
     for (const int increments : {10, 100, 400}) {
       SCOPED_TRACE(law.model + " in " + std::to_string(increments));
@@ -167,10 +174,9 @@ TEST(Limit, AStressBeyondTheStrengthEndsAtTheLimitPoint) {
       EXPECT_LT(seconds, 5);  // of this thread: 0.1 in a fast build; it was minutes
       EXPECT_EQ(curve.rows, static_cast<std::size_t>(law.strength / (target / increments)));
       EXPECT_NE(curve.problem.find("limit point"), std::string::npos) << curve.problem;
-      // "found p = 172.4, q = 217.3, ...": the state that was reached
-      const auto at = curve.problem.find("q = ");
-      ASSERT_NE(at, std::string::npos);
-      EXPECT_NEAR(std::stod(curve.problem.substr(at + 4)), law.strength, 2e-4 * law.strength);
+      // "found p = 172.4, q = 217.3, ...": the state that was reached, without strain that only rounding asks for
+      EXPECT_NEAR(found("q = ", curve.problem), law.strength, 2e-4 * law.strength);
+      EXPECT_LT(found("eps_q = ", curve.problem), law.most_strain);
     }
   }
 }
@@ -224,6 +230,20 @@ TEST(Limit, ASnapBackUnderStrainControlIsNamed) {
         run(isotropic_test("tresca", constants, 100, {}, {named("triaxial-drained", "eps_a", {0.02}, increments)}));
     EXPECT_NE(curve.problem.find("limit point"), std::string::npos) << curve.problem;
     EXPECT_NE(curve.problem.find("q = 80,"), std::string::npos) << curve.problem;
+    EXPECT_NE(curve.problem.find("hold strains in their place"), std::string::npos) << curve.problem;
+  }
+}
+
+// The same where plastic straining sets in: before it the soil has an answer, and just behind it none.
+TEST(Limit, ASnapBackAtTheOnsetOfPlasticStrainIsNamed) {
+  const Constants constants{{"kappa", .05}, {"lambda", .25}, {"nu", .19},   {"p_e", 3}, {"M", .73},
+                            {"M_c", .9},    {"k", .82},      {"alpha", .8}, {"xi", 0},  {"c_R", 77},
+                            {"c_beta", 0},  {"c_b", 28},     {"R_bf", 1},   {"c_a", 6}, {"p_atm", 101.325}};
+  for (const int increments : {50, 841}) {
+    const auto curve = run(isotropic_test("subloading", constants, 340, {{"R_b", 3.3}, {"OCR", 1.05}, {"a", 0.13}},
+                                          {named("triaxial-drained", "eps_a", {-0.2}, increments)}));
+    EXPECT_NE(curve.problem.find("limit point"), std::string::npos) << curve.problem;
+    EXPECT_NE(curve.problem.find("hold strains in their place"), std::string::npos) << curve.problem;
   }
 }
 
