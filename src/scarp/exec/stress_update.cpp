@@ -211,9 +211,14 @@ class Update {
 
   State<double> load_state(int p) const {
     State<double> s;
-    with_state(block_, p, [&](const auto&, const auto& state) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(state)>, State<double>>) s = state;
-    });
+    const int columns = state_columns<N>(model_);
+    int c = 0;
+    for_each_component(
+        [&](double& x) {
+          x = c < N ? -points_.sigma[c][p] : c - N < columns ? block_.state[c - N][p] : 0.0;
+          ++c;
+        },
+        s);
     return s;
   }
 
@@ -266,9 +271,18 @@ StressBooks& StressBooks::operator+=(const StressBooks& other) {
 template <int Dim>
 void update_stresses(Block<Dim>& block, PointRange range, const Strains<Dim>& strains, int at, double dt,
                      const IntegrationSettings& settings, StressBooks& books) {
-  std::visit([&]<class Model>(
-                 const Model& model) { Update<Model, Dim>(model, block, strains, dt, settings, books)(range, at); },
-             block.model);
+  std::visit(
+      [&]<class Model>(const Model& model) {
+        if constexpr (Averaged<Model>) {
+          if (block.length > 0) {
+            const Nonlocal<Model> nonlocal(model);
+            Update<Nonlocal<Model>, Dim>(nonlocal, block, strains, dt, settings, books)(range, at);
+            return;
+          }
+        }
+        Update<Model, Dim>(model, block, strains, dt, settings, books)(range, at);
+      },
+      block.model);
 }
 
 template <int Dim>
