@@ -141,8 +141,8 @@ MeshSmoothing<Dim>::MeshSmoothing(const Mesh<Dim>& mesh, double length) {
   std::vector<Row> L(nodes);  // without its diagonal: its rows add up to nothing
   std::vector<double> M(nodes, 0.0);
   for (int e = 0; e < mesh.element_count(); ++e) add_element(mesh, e, length, L, M);
-  // All eigenvalues of M⁻¹ L are at most the largest sum of magnitudes in a row (Gershgorin). Steps of 1.5 of these at
-  // most are stable, and damp what alternates from node to node.
+  // All eigenvalues of M⁻¹ L are at most the largest sum of magnitudes in a row (Gershgorin). A stage is stable up to
+  // two over it; 5 % less damp what alternates from node to node.
   double largest = 0;
   for (std::size_t i = 0; i < nodes; ++i) {
     double diagonal = 0, others = 0;
@@ -152,13 +152,14 @@ MeshSmoothing<Dim>::MeshSmoothing(const Mesh<Dim>& mesh, double length) {
     }
     if (M[i] > 0) largest = std::max(largest, (std::abs(diagonal) + others) / M[i]);
   }
-  steps_ = static_cast<int>(std::ceil(largest / 1.5));
+  while (1.9 * (stages_ * stages_ + stages_) / 2 * steps < largest) ++stages_;
+  const double stage = 2.0 / (stages_ * stages_ + stages_) / steps;
   begin_.push_back(0);
   for (std::size_t i = 0; i < nodes; ++i) {
     per_volume_.push_back(M[i] > 0 ? 1 / M[i] : 0.0);
     for (const auto& entry : L[i]) {
       column_.push_back(entry.first);
-      share_.push_back(-entry.second * per_volume_.back() / steps_);
+      share_.push_back(-entry.second * per_volume_.back() * stage);
     }
     begin_.push_back(static_cast<int>(column_.size()));
   }
@@ -170,7 +171,8 @@ void MeshSmoothing<Dim>::operator()(Column& values, Column& scratch) const {
   exec::for_each(nodes, [&](int i) {
     for (const int q : {2 * i, 2 * i + 1}) values[q] *= per_volume_[i];
   });
-  for (int step = 0; step < steps_; ++step) {
+  // Y_j = μ_j (Y_{j−1} − stage M⁻¹ L Y_{j−1}) + (1 − μ_j) Y_{j−2}, μ_j = (2j − 1)/j
+  const auto stage = [&](double mu) {
     exec::for_each(nodes, [&](int i) {
       const double a = values[2 * i], b = values[2 * i + 1];
       double da = 0, db = 0;
@@ -179,10 +181,14 @@ void MeshSmoothing<Dim>::operator()(Column& values, Column& scratch) const {
         da += share_[l] * (values[j] - a);
         db += share_[l] * (values[j + 1] - b);
       }
-      scratch[2 * i] = a + da;
-      scratch[2 * i + 1] = b + db;
+      scratch[2 * i] = mu * (a + da) + (1 - mu) * scratch[2 * i];
+      scratch[2 * i + 1] = mu * (b + db) + (1 - mu) * scratch[2 * i + 1];
     });
     values.swap(scratch);
+  };
+  std::fill(scratch.begin(), scratch.end(), 0.0);
+  for (int step = 0; step < steps; ++step) {
+    for (int j = 1; j <= stages_; ++j) stage((2.0 * j - 1) / j);
   }
 }
 
