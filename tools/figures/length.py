@@ -52,10 +52,10 @@ def draw(plt, found, points):
     for axis, key in zip(axes[1:], [(0.0, 10), (0.0, 30), (0.1, 10), (0.1, 30)]):
         mine = [row for row in points if (float(row["length"]), int(row["n"])) == key]
         shown = axis.scatter([float(row["x"]) for row in mine], [float(row["y"]) for row in mine],
-                             c=[float(row["plastic"]) for row in mine], s=(36 / key[1]) ** 2 / 2, vmin=0, vmax=0.6,
+                             c=[float(row["plastic"]) for row in mine], s=(58 / key[1]) ** 2 / 2, vmin=0, vmax=0.6,
                              linewidths=0)
         axis.set_aspect("equal")
-        axis.set_title(name(*key), fontsize=8)
+        axis.set_title(name(*key), fontsize=7)
         axis.set_xticks([])
         axis.set_yticks([])
     figure.colorbar(shown, ax=axes[1:], label="‖ε$^p$‖", shrink=0.8)
