@@ -12,6 +12,7 @@
 #include "scarp/points/points.hpp"
 #include "scarp/step/books.hpp"
 #include "scarp/step/release.hpp"
+#include "scarp/step/sides.hpp"
 #include "scarp/transfer/transfer.hpp"
 
 namespace scarp {
@@ -30,6 +31,7 @@ template <int Dim>
 struct Resistance {
   Vec<Dim> F_damping{};   ///< local damping
   Vec<Dim> F_friction{};  ///< of a wall
+  Vec<Dim> F_dashpot{};   ///< of an absorbing side
 };
 
 /// Buffers of a step.
@@ -64,6 +66,7 @@ struct Body {
   Conditions<Dim> conditions;
   Vec<Dim> gravity;
   Release<Dim> release;
+  Sides<Dim> sides;
   std::vector<Block<Dim>> blocks;
 
   ActiveElements active;

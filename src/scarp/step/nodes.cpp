@@ -31,7 +31,7 @@ std::array<double, n> gathered(const Body<Dim>& body, int k, const Column& numbe
 /// Does anything resist the motion of a node?
 template <int Dim>
 bool is_resisted(const Body<Dim>& body, int n, double damping) {
-  return damping != 0 || !is_free(body.conditions, n);
+  return damping != 0 || !is_free(body.conditions, n) || body.sides.holds(n);
 }
 
 /// Local damping of the force F against the motion, and the conditions: changes a = F / m, notes what is held and the
@@ -52,6 +52,7 @@ template <int Dim>
     }
     a[j] = (F[j] + resistance.F_damping[j]) * node.per_mass;
   }
+  if (body.sides.holds(n)) body.sides.damp(n, node.m, node.v, dt, a, resistance.F_dashpot);
   if (!is_free(body.conditions, n)) {
     const auto reaction = constrain_acceleration<Dim>(body.conditions, settings.wall, n, node.m, node.v, dt, a);
     node.held = reaction.held;
@@ -76,6 +77,7 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
   for (int j = 0; j < Dim; ++j) {
     node.v[j] = p[j] * per_mass;
     F[j] = m * body.gravity[j] - F_int[j];
+    if (body.sides.holds(n)) F[j] += body.sides.force(n, j, m);
     if (body.release.active()) F[j] += body.release.force(n, j, m);
     a[j] = F[j] * per_mass;
   }
@@ -93,6 +95,22 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
   if (resisted) constrain_velocity<Dim>(body.conditions, settings.wall, n, node.held, v_next);
   for (int j = 0; j < Dim; ++j) motion.dv(j) = settings.flip * a[j] * dt + (1 - settings.flip) * v_next[j];
   return F;
+}
+
+/// The work of what acts on node n from outside, with v^{t+dt} of eq. 8 before conditions.
+template <int Dim>
+[[gnu::noinline]] void book_from_outside(Body<Dim>& body, int n, const Vec<Dim>& v, double dt, WallRule rule,
+                                         StepBooks<Dim>& books) {
+  const Node<Dim>& node = body.buffers.node[n];
+  const unsigned set = set_components<Dim>(body.conditions, rule, n, node.held);
+  Vec<Dim> path;
+  for (int j = 0; j < Dim; ++j) path[j] = 0.5 * (node.v[j] + v[j]) * dt;
+  if (body.release.active()) books.work_release += work_of<Dim>(body.release, n, node.m, set, path);
+  if (!body.sides.holds(n)) return;
+  const auto work = body.sides.move(n, node.m, set, body.buffers.resistance[n].F_dashpot, path);
+  books.work_boundary += work.held;
+  books.dissipation_absorbing += work.dashpot;
+  books.stored_sides += work.spring;
 }
 
 }  // namespace
@@ -123,7 +141,7 @@ void accelerate_nodes(Body<Dim>& body, double dt, const StepSettings& settings, 
 template <int Dim>
 void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
   for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>& part) {
-    double damping = 0, friction = 0, release = 0;
+    double damping = 0, friction = 0;
     Vec<Dim> m_du{};
     for (int k = first; k < last; ++k) {
       const int n = body.assembly.node(k);
@@ -132,12 +150,8 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
       const auto dp = gathered<transfer::momentum_size<Dim>>(body, k, body.buffers.momentum);
       Vec<Dim> v;
       for (int j = 0; j < Dim; ++j) v[j] = settings.flip * node.v[j] + dp[j] * node.per_mass;
-      if (body.release.active()) [[unlikely]] {
-        Vec<Dim> path;
-        for (int j = 0; j < Dim; ++j) path[j] = 0.5 * (node.v[j] + v[j]) * dt;
-        release +=
-            work_of<Dim>(body.release, n, node.m, set_components(body.conditions, settings.wall, n, node.held), path);
-      }
+      if (body.release.active() || body.sides.active()) [[unlikely]]
+        book_from_outside<Dim>(body, n, v, dt, settings.wall, part);
       if (is_resisted(body, n, settings.damping)) [[unlikely]] {
         const auto& resistance = body.buffers.resistance[n];
         for (int j = 0; j < Dim; ++j) {
@@ -155,7 +169,6 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
     }
     part.dissipation_damping = damping;
     part.dissipation_friction = friction;
-    part.work_release = release;
     for (int j = 0; j < Dim; ++j) part.work_gravity += m_du[j] * body.gravity[j];
   });
 }
