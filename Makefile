@@ -31,6 +31,7 @@ validate: deps
 	mkdir -p $(BUILD)/validate
 	$(BUILD)/tests/validate $(BUILD)/validate
 	/usr/bin/python3 tools/figures/validate.py $(BUILD)/validate
+	/usr/bin/python3 tools/figures/length.py $(BUILD)/validate
 
 build: deps
 	cmake --preset release -DSCARP_TESTS=OFF -DSCARP_BENCH=OFF

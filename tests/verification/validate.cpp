@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "biaxial.hpp"
 #include "column.hpp"
 #include "discs.hpp"
 #include "manufactured.hpp"
@@ -21,6 +22,32 @@ class Studies {
   explicit Studies(const std::string& folder) : errors_(folder + "/errors.csv"), discs_(folder + "/discs.csv") {
     errors_ << "problem,shape,quadrature,per_cell,n,quantity,value\n";
     discs_ << "problem,shape,quadrature,flip,n,t,kinetic,stored,angular_momentum,momentum\n";
+  }
+
+  /// Softening with and without an internal length: curves, and the plastic strain at the end.
+  static void biaxial(const std::string& folder) {
+    std::ofstream curves(folder + "/biaxial.csv"), points(folder + "/biaxial_points.csv");
+    curves << "length,n,strain,q,band\n";
+    points << "length,n,x,y,plastic\n";
+    char numbers[120];
+    for (const double length : {0.0, 0.1}) {
+      for (const int n : {10, 20, 30}) {
+        std::printf("biaxial test, length %g, %d elements\n", length, n);
+        std::fflush(stdout);
+        Biaxial test(n, length);
+        for (int k = 1; k <= 40; ++k) {
+          test.compress(0.002 * k);
+          std::snprintf(numbers, sizeof numbers, "%g,%d,%.4f,%.4f,%.4f\n", length, n, test.strain(), test.q(),
+                        test.band());
+          curves << numbers;
+        }
+        for (int i = 0; i < test.clay().size(); ++i) {
+          std::snprintf(numbers, sizeof numbers, "%g,%d,%.5f,%.5f,%.5f\n", length, n, test.clay().x[0][i],
+                        test.clay().x[1][i], test.plastic(i));
+          points << numbers;
+        }
+      }
+    }
   }
 
   void manufactured(const Method& method) {
@@ -119,10 +146,12 @@ class Studies {
 int main(int argc, char** argv) {
   using namespace scarp::verification;
   scarp::exec::wait_politely(argv);
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: %s FOLDER\n", argv[0]);
+  if (argc != 2 && !(argc == 3 && std::string(argv[2]) == "biaxial")) {
+    std::fprintf(stderr, "usage: %s FOLDER [biaxial]\n", argv[0]);
     return 2;
   }
+  Studies::biaxial(argv[1]);
+  if (argc == 3) return 0;
   Studies studies(argv[1]);
   for (const Method& method : all_methods()) {
     std::printf("%s\n", method.name().c_str());

@@ -56,7 +56,7 @@ struct StressBooks {
 /// increments in `strains` from place `at` on.
 template <int Dim>
 void update_stresses(Block<Dim>& block, PointRange range, const Strains<Dim>& strains, int at, double dt,
-                     const IntegrationSettings& settings, const WaveSettings& waves, StressBooks& books);
+                     const IntegrationSettings& settings, StressBooks& books, const WaveSettings& waves = {});
 
 /// The least 1 / (c/(k h) + |v|/h) over the points of a block, with c the compression wave speed of their present
 /// stiffness; infinite where no point has stiffness. `weight` is that of the points in the quadrature of the active

@@ -36,6 +36,8 @@ struct MaterialInput {
   AnyModel model;      ///< constructed and checked
   double density = 0;  ///< [Mg/m3]
   Position position;
+  double length = 0;  ///< over which it softens [m]; 0: at each point by itself
+  Position length_position;
 };
 
 /// Where soil is: a polygon in two dimensions, a solid in three; shape() in both.

@@ -12,6 +12,7 @@
 #include "scarp/points/fill.hpp"
 #include "scarp/points/overburden.hpp"
 #include "scarp/run/initial.hpp"
+#include "scarp/run/lengths.hpp"
 
 namespace scarp::run {
 namespace {
@@ -170,7 +171,7 @@ void set_conditions(Body<Dim>& body, const input::CaseOf<Dim>& input) {
 template <int Dim>
 Block<Dim> make_block(const input::RegionInputOf<Dim>& region, const input::MaterialInput& material,
                       const FillingOf<Dim>& filling, bool axisymmetric, int first_id) {
-  Block<Dim> block(region.name, material.model);
+  Block<Dim> block(region.name, material.model, material.length);
   resize(block, static_cast<int>(filling.position.size()));
   auto& points = block.points;
   for (int i = 0; i < block.size(); ++i) {
@@ -241,6 +242,7 @@ Body<Dim> build_body(const input::CaseOf<Dim>& input) {
     }
     throw;
   }
+  refuse_short_lengths(input, body);
   return body;
 }
 

@@ -11,6 +11,7 @@
 #include "scarp/mesh/mesh.hpp"
 #include "scarp/points/points.hpp"
 #include "scarp/step/books.hpp"
+#include "scarp/step/nonlocal.hpp"
 #include "scarp/step/release.hpp"
 #include "scarp/transfer/transfer.hpp"
 
@@ -73,6 +74,7 @@ struct Body {
   double least_mass = 0;  ///< a node with less only has points on the far edges of its elements, and is left out
   std::int64_t out_of_place = 0;  ///< points that changed element since their arrays were last put in order
   Buffers<Dim> buffers;
+  Averages<Dim> averages;  ///< of soil that softens over a length
 
   int point_count() const;
 };

@@ -13,11 +13,11 @@
 namespace scarp {
 
 /// The parts of a step whose times are taken when asked for.
-enum class Phase { points_to_nodes, nodes, velocities, strain_and_move, stress, order };
-inline constexpr int phases = 6;
+enum class Phase { points_to_nodes, nodes, velocities, strain_and_move, stress, order, averages };
+inline constexpr int phases = 7;
 inline constexpr std::array<const char*, phases> phase_names{
-    "points to nodes (1)",  "nodes (2, 3, 5)",    "velocities (4, 5)", "strain, motion, element (6, 8-11)",
-    "stress and state (7)", "order of the points"};
+    "points to nodes (1)",  "nodes (2, 3, 5)",     "velocities (4, 5)",    "strain, motion, element (6, 8-11)",
+    "stress and state (7)", "order of the points", "averages over lengths"};
 
 template <int Dim>
 struct StepBooks {

@@ -331,8 +331,8 @@ void strain_stress_and_motion(Body<Dim>& body, double dt, const StepSettings& se
       }
       const Stopwatch<Dim> watch(settings.profile, part, Phase::stress);
       const PointRange range{block.order.data() + block.begin[first], block.begin[last] - block.begin[first]};
-      exec::update_stresses(block, range, strains, 0, dt, settings.integration,
-                            scheme::waves(scheme, is_elastic(block.model)), part.stress);
+      exec::update_stresses(block, range, strains, 0, dt, settings.integration, part.stress,
+                            scheme::waves(scheme, is_elastic(block.model)));
     }
   });
   books.work_stress = books.stress.work;

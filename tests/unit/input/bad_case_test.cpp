@@ -36,6 +36,19 @@ TEST(BadCase, UnknownKeys) {
   });
 }
 
+TEST(BadCase, LengthsWithoutSofteningOverThem) {
+  expect_all_refused({
+      {"density = 1.8", "density = 1.8\n@length = -0.5", "length", "-0.5", ""},
+      {"density = 1.8", "density = 1.8\n@length = \"long\"", "length is a number", "the text \"long\"",
+       "without quotes"},
+      {"density = 1.8", "density = 1.8\n@length = [0.5]", "length is a number", "a list", ""},
+      {"density = 1.8", "density = 1.8\n@lenght = 0.5", "no constant lenght", "0.5", "scarp models"},
+      {"density = 2.2", "density = 2.2\n@length = 1.5", "linear-elastic has no softening", "length = 1.5",
+       "leave length out"},
+      {"c_b = 20.0", "c_b = 0.0\n@length = 1.5", "these constants leave nothing to", "length = 1.5", "c_b > 0"},
+  });
+}
+
 TEST(BadCase, WrongTypes) {
   expect_all_refused({
       {"title = \"two columns\"", "@title = 3", "title is a text", "the number 3", "write it in quotes"},

@@ -31,6 +31,9 @@ TEST(GoodCase, Materials) {
   EXPECT_EQ(c.materials[1].density, 1.8);
   EXPECT_TRUE(std::holds_alternative<Subloading>(c.materials[1].model));
   EXPECT_EQ(c.materials[1].position.line, 17);
+  EXPECT_EQ(c.materials[1].length, 0.0);
+  EXPECT_EQ(read(replaced(minimal, "density = 1.8", "density = 1.8\nlength = 0.75")).materials[1].length, 0.75);
+  EXPECT_EQ(read(replaced(minimal, "density = 2.2", "density = 2.2\nlength = 0.0")).materials[0].length, 0.0);
 }
 
 TEST(GoodCase, Regions) {
