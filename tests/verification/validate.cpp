@@ -90,11 +90,11 @@ class Studies {
 
   void discs(Method method) {
     for (const double flip : {1.0, 0.99, 0.9, 0.0}) {
-      method.flip = flip;
+      method.scheme = report_scheme(flip);
       history("colliding discs", method, 20, collide(20, method));
       history("turning disc", method, 20, turn_disc(20, method));
     }
-    method.flip = 1;
+    method.scheme = report_scheme();
     for (const int n : {40, 80}) history("turning disc", method, n, turn_disc(n, method));
   }
 
@@ -128,7 +128,7 @@ class Studies {
   void history(const char* problem, const Method& method, int n, const DiscRun& run) {
     for (const auto& at : run.history) {
       char numbers[160];
-      std::snprintf(numbers, sizeof numbers, "%g,%d,%.6g,%.8e,%.8e,%.8e,%.1e", method.flip, n, at.t, at.kinetic,
+      std::snprintf(numbers, sizeof numbers, "%g,%d,%.6g,%.8e,%.8e,%.8e,%.1e", method.scheme.flip, n, at.t, at.kinetic,
                     at.stored, at.angular_momentum, run.momentum);
       discs_ << problem << ',' << name_of(method.shape) << ',' << text(method.quadrature) << ',' << numbers << '\n';
     }
