@@ -23,7 +23,7 @@ sys.path.insert(0, str(ROOT / "python/scarp"))
 import vtu  # noqa: E402
 
 CSV = ROOT / "docs/figures/robustness.csv"
-FIELDS = ("study", "name", "status", "toe", "furthest", "crest", "moved", "behind", "front", "height", "volume",
+FIELDS = ("study", "name", "status", "begins", "toe", "furthest", "crest", "moved", "mean", "behind", "front", "height", "volume",
           "speed", "energy_error", "largest_energy_error", "removed", "steps", "wall")
 
 
@@ -114,6 +114,15 @@ def of_plain():
             *(plain(f"0.5 m, {shape}", 0.5, shape=shape) for shape in ("gimp", "b-spline"))]
 
 
+def of_undrained():
+    """The same with the undrained strength of a clay, whose flow is associated and keeps its volume."""
+    soil = {"name": "soil", "model": "tresca", "density": 1.8, "E": 1.0e4, "nu": 0.3, "s_u": 22.0}
+    found = [plain(f"{h} m, s_u = 22", h) for h in (1.0, 0.5, 0.25)]
+    for one in found:
+        one.changes["material.soil"] = soil
+    return found
+
+
 def column(a, parts, phi=31.0, **of_method):
     """A column of the aspect ratio a on elements of a part of its length of 1 m."""
     top = float(a)
@@ -188,7 +197,7 @@ def studies(out):
             "threads": [cut("threads", "two", threads=2)],
             "fine": of_steps(0.4), "fine places": of_places(0.4),
             "triangles": [cut("slope_cut", f"safety {safety}", case=CUT_ON_MESH, safety=safety) for safety in SAFETIES],
-            "plain": of_plain(), "column": of_columns(), "gap": of_gap(out)}
+            "plain": of_plain(), "undrained": of_undrained(), "column": of_columns(), "gap": of_gap(out)}
 
 
 # Running ---------------------------------------------------------------------------------------------------------------
@@ -244,16 +253,24 @@ def bonds_lost(folder, summary, frame, place):
             for name, mine in (("behind", x < place["behind"]), ("front", x > place["front"]))}
 
 
+def begins(folder):
+    """When the slide begins: time since the start of the last stage at which the kinetic energy first is above 5 kJ/m."""
+    with open(folder / "history.csv", newline="", encoding="utf-8") as file:
+        history = [(int(row["stage"]), float(row["time"]), float(row["kinetic_energy"])) for row in csv.DictReader(file)]
+    last = [(time, energy) for stage, time, energy in history if stage == history[-1][0]]
+    return next((time - last[0][0] for time, energy in last if energy > 5), np.nan)
+
+
 def measure_cut(folder, summary, frame, place):
     """Of the soil that moved by more than 1 m: how far beyond place["x"] 98 % of its mass and all of it lie, the
-    least x that it came from above place["above"], its mass."""
+    least x that it came from above place["above"], its mass, how far it moved."""
     length = np.linalg.norm(frame["displacement"], axis=1)
     moved = length > 1.0
-    found = {"moved": mass(frame)[moved].sum(), **bonds_lost(folder, summary, frame, place)}
+    found = {"moved": mass(frame)[moved].sum(), "begins": begins(folder), **bonds_lost(folder, summary, frame, place)}
     if moved.any():
         x, origin = frame["Points"][moved, 0], (frame["Points"] - frame["displacement"])[moved]
         high = origin[origin[:, 1] > place["above"], 0]
-        found |= {"toe": beyond(x, mass(frame)[moved], 0.98) - place["x"], "furthest": x.max() - place["x"],
+        found |= {"mean": np.average(length[moved], weights=mass(frame)[moved]), "toe": beyond(x, mass(frame)[moved], 0.98) - place["x"], "furthest": x.max() - place["x"],
                   "crest": high.min() if len(high) else np.nan}
     return found
 
@@ -293,7 +310,7 @@ def measure(one, folder):
 
 # Writing ---------------------------------------------------------------------------------------------------------------
 
-DIGITS = {"toe": 2, "furthest": 2, "crest": 2, "moved": 1, "behind": 3, "front": 3, "height": 2, "volume": 3, "speed": 2,
+DIGITS = {"begins": 1, "mean": 2, "toe": 2, "furthest": 2, "crest": 2, "moved": 1, "behind": 3, "front": 3, "height": 2, "volume": 3, "speed": 2,
           "energy_error": 4, "largest_energy_error": 4, "wall": 0}
 
 

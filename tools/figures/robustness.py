@@ -39,7 +39,7 @@ def draw_slope(plt, table):
             scheme = next((name for name in COLOURS if row["name"].startswith(name)), "two-term")
             axis.plot(number(row[key]), at, "o", ms=4, color=COLOURS[scheme], mfc="none" if row["status"] != "done" else None)
         axis.set_xlabel(says)
-        axis.set_xlim(left=0)
+        axis.set_xlim(left=None if key == "crest" else 0)
     axes[0].set_yticks(range(len(mine)), [f"{row['study']}: {row['name']}" for row in mine])
     axes[0].set_ylim(len(mine) - 0.5, -0.5)
     figure.tight_layout()
@@ -54,7 +54,7 @@ def has_frames(out, one):
     return (out / one.folder / "points.pvd").exists()
 
 
-def scatter(axis, frame, spacing, limits, high):
+def scatter(axis, frame, spacing, limits, high, inches):
     """Points as squares of about their own size, coloured by displacement up to `high`."""
     (left, right), (low, top) = limits
     x, y = frame["Points"][:, 0], frame["Points"][:, 1]
@@ -63,9 +63,8 @@ def scatter(axis, frame, spacing, limits, high):
     axis.set_xlim(left, right)
     axis.set_ylim(low, top)
     axis.grid(False)
-    box = axis.get_position().width * axis.figure.get_figwidth() * 72
-    return axis.scatter(x, y, c=length, s=(spacing * box / (right - left)) ** 2, marker="s", lw=0, cmap="viridis", vmin=0,
-                        vmax=high)
+    size = 1.3 * spacing * 72 * inches / (right - left)  # a little more than they are: no lines between
+    return axis.scatter(x, y, c=length, s=size**2, marker="s", lw=0, cmap="viridis", vmin=0, vmax=high)
 
 
 def draw_frames(plt, out, chosen, path, limits, high, columns, spacing):
@@ -75,14 +74,14 @@ def draw_frames(plt, out, chosen, path, limits, high, columns, spacing):
         return
     lines = -(-len(chosen) // columns)
     (left, right), (low, top) = limits
-    width = 13 / columns
-    figure, axes = plt.subplots(lines, columns, figsize=(13, lines * (width * (top - low) / (right - left) + 0.35)), squeeze=False)
+    width = 11.5 / columns
+    figure, axes = plt.subplots(lines, columns, figsize=(13, lines * (width * (top - low) / (right - left) + 0.4)), squeeze=False,
+                                layout="constrained")
     for axis in axes.flat[len(chosen):]:
         axis.set_visible(False)
     for axis, (title, one) in zip(axes.flat, chosen.items()):
-        shown = scatter(axis, last_frame(out, one), spacing(one), limits, high)
+        shown = scatter(axis, last_frame(out, one), spacing(one), limits, high, width)
         axis.set_title(title, loc="left")
-    figure.tight_layout()
     figure.colorbar(shown, ax=axes, shrink=0.6, pad=0.01, label="displacement [m]")
     figure.savefig(path, dpi=110)
 
@@ -109,20 +108,21 @@ def draw_plain(plt, out, studies):
     draw_frames(plt, out, chosen, FIGURES / "robustness_plain.png", ((0, 45), (0, 16)), 6, 3, spacing_of)
 
 
-def of_experiments(plt, axes):
+def of_experiments(axes):
     """Lube et al. (2005) and Lajeunesse et al. (2005): run-out over L0, height over L0."""
-    a = np.geomspace(0.4, 8, 200)
-    lube = np.where(a < 1.8, 1.2 * a, np.where(a > 2.8, 1.9 * a ** (2 / 3), np.nan))
-    lajeunesse = np.where(a < 3, 1.8 * a, 2.3 * a ** (2 / 3))
-    axes[0].loglog(a, lube, "k-", label="Lube et al. 2005")
-    axes[0].loglog(a, lajeunesse, "k--", label="Lajeunesse et al. 2005")
-    axes[1].loglog(a, np.where(a < 1.15, a, a**0.4), "k-", label="Lube et al. 2005")
-    axes[1].loglog(a, np.where(a < 0.7, a, a ** (1 / 3)), "k--", label="Lajeunesse et al. 2005")
+    laws = ((0, "-", "Lube", ((0.4, 1.8, 1.2, 1), (2.8, 8, 1.9, 2 / 3))),
+            (0, "--", "Lajeunesse", ((0.4, 3, 1.8, 1), (3, 8, 2.3, 2 / 3))),
+            (1, "-", "Lube", ((0.4, 1.15, 1, 1), (1.15, 8, 1, 0.4))),
+            (1, "--", "Lajeunesse", ((0.4, 0.7, 1, 1), (0.7, 8, 1, 1 / 3))))
+    for at, style, who, parts in laws:
+        for k, (start, end, factor, power) in enumerate(parts):
+            a = np.array([start, end])
+            axes[at].loglog(a, factor * a**power, "k" + style, label=f"{who} et al. 2005" if k == 0 else None)
 
 
 def draw_column(plt, out, studies, table):
     figure, axes = plt.subplots(1, 2, figsize=(9, 4))
-    of_experiments(plt, axes)
+    of_experiments(axes)
     for parts, style in ((10, "s"), (20, "o")):
         mine = [row for row in table if row["study"] == "column" and row["name"].endswith(f"L0/{parts}")]
         a = [float(row["name"].split()[2].rstrip(",")) for row in mine]
@@ -130,6 +130,8 @@ def draw_column(plt, out, studies, table):
                                         (axes[1], "height", "C0", "at the wall")):
             axis.plot(a, [number(row[key]) for row in mine], style, color=colour, mfc="none" if parts == 10 else None, ms=5,
                       label=f"{says}, h = L0/{parts}")
+    axes[0].set_yticks([0.5, 1, 2, 5, 10], ["0.5", "1", "2", "5", "10"])
+    axes[1].set_yticks([0.5, 1, 1.5, 2], ["0.5", "1", "1.5", "2"])
     for axis, says in zip(axes, ("run-out (L∞ − L0)/L0", "height of the deposit H∞/L0")):
         axis.set_xlabel("a = H0/L0")
         axis.set_ylabel(says)
