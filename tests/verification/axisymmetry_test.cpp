@@ -54,9 +54,9 @@ TEST(BodyOfRevolution, RadialExpansionStrainsTheCircumferenceAsMuch) {
       element.motion[i] = motion[i].row.data();
     }
     transfer::nodes_to_points<false, Basis>(
-        Basis::Cell(*body.mesh, e), element, 1, block.points,
-        {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, strains, block.begin[slot],
-        sums, [](const auto&...) {});
+        Basis::Cell(*body.mesh, e), element, {}, block.points,
+        {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, 0, strains,
+        block.begin[slot], sums, [](const auto&...) {});
   }
   for (int p = 0; p < block.size(); ++p) {
     EXPECT_NEAR(strains.deps[0][p], c, 1e-14);

@@ -67,7 +67,7 @@ class Biaxial {
   /// Steps until the axial strain is this.
   void compress(double to) {
     StepSettings settings;
-    settings.flip = 0.9;
+    settings.scheme = report_scheme(0.9);
     while (strain() < to) {
       if (steps_++ % 50 == 0) dt_ = 0.4 * critical_time_step(body_);
       time_ += dt_;

@@ -168,8 +168,8 @@ TEST(RigidRotation, TurnsStressBetaAndCentreWithTheBody) {
         element.motion[i] = motion[i].row.data();
       }
       transfer::nodes_to_points<false, GridLinear<2>>(
-          GridLinear<2>::Cell(*body.mesh, e), element, 1, block.points,
-          {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, strains,
+          GridLinear<2>::Cell(*body.mesh, e), element, {}, block.points,
+          {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, 0, strains,
           block.begin[slot], sums, [](const auto&...) {});
     }
     exec::StressBooks books;
