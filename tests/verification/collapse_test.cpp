@@ -25,7 +25,7 @@ Body<2> collapsed(const AnyModel& sand) {
   fix(body.conditions, body.mesh->node_sets.at("left"), 0);
   for (int j = 0; j < 2; ++j) fix(body.conditions, body.mesh->node_sets.at("bottom"), j);
   StepSettings settings;
-  settings.flip = 0.95;
+  settings.scheme = report_scheme(0.95);
   run_until(body, 2, 0.5, settings, [](double, const StepBooks<2>&) {});
   return body;
 }
