@@ -87,7 +87,7 @@ class SchemeStudies {
   }
   void vortex(const NamedScheme& its) {
     const char* problem = "vortex, A = 1, 4 x 4 points";
-    for (const int n : {20, 40, 80, 160}) {
+    for (const int n : {20, 40, 80}) {
       attempt(its, problem, n, [&] {
         const auto errors = follow_vortex(1, n, 4, with(its));
         row(its, problem, n, "error of displacement", errors.displacement);
@@ -106,21 +106,19 @@ class SchemeStudies {
   }
   void rest(const NamedScheme& its) {
     constexpr int steps = 100000;
-    for (const double safety : {0.5, 0.2}) {
-      for (const double spacing : {0.2, 0.3, 0.37, 0.4}) {
-        for (const auto shape : all_shapes) {
-          for (const auto cells : {Cells::grid, Cells::quads, Cells::triangles, Cells::mixed}) {
-            if (cells != Cells::grid && shape != GridFunctions::linear) continue;
-            char problem[96];
-            std::snprintf(problem, sizeof problem, "ground at rest, %s, %s, points %g m apart, safety %g",
-                          name_of(cells).c_str(), name_of(shape).c_str(), spacing, safety);
-            attempt(its, problem, steps, [&] {
-              auto body = ground<2>(cut_up(make_grid({0, 0}, {4, 2.5}, {8, 5}, shape), cells), {spacing, 2});
-              const auto found = keep_at_rest(body, its.scheme, steps, safety);
-              row(its, problem, steps, "kinetic energy of the first tenth", found.first);
-              row(its, problem, steps, "growth", found.growth());
-            });
-          }
+    for (const double spacing : {0.3, 0.37}) {
+      for (const auto shape : all_shapes) {
+        for (const auto cells : {Cells::grid, Cells::quads, Cells::triangles, Cells::mixed}) {
+          if (cells != Cells::grid && shape != GridFunctions::linear) continue;
+          char problem[96];
+          std::snprintf(problem, sizeof problem, "ground at rest, %s, %s, points %g m apart", name_of(cells).c_str(),
+                        name_of(shape).c_str(), spacing);
+          attempt(its, problem, steps, [&] {
+            auto body = ground<2>(cut_up(make_grid({0, 0}, {4, 2.5}, {8, 5}, shape), cells), {spacing, 2});
+            const auto found = keep_at_rest(body, its.scheme, steps, 0.5);
+            row(its, problem, steps, "kinetic energy of the first tenth", found.first);
+            row(its, problem, steps, "growth", found.growth());
+          });
         }
       }
     }
