@@ -3,12 +3,13 @@ BUILD := build
 JOBS := $(shell nproc)
 RESULTS := results/slope_cut
 
-.PHONY: help demo test validate build bench bench-kernels bench-scaling bench-programs package figures deps format clean
+.PHONY: help demo test validate robustness build bench bench-kernels bench-scaling bench-programs package figures deps format clean
 
 help:
 	@echo "make demo     cut a slope of structured clay and draw what happens, in $(RESULTS)"
 	@echo "make test     build and run all tests"
 	@echo "make validate  run the verification problems on more meshes and draw them (minutes)"
+	@echo "make robustness  run slopes and columns at many settings: what results depend on (an hour on one core)"
 	@echo "make bench    measure whole steps, in $(BUILD)/bench.json; make bench-kernels their parts"
 	@echo "make build    build the program, $(BUILD)/bin/scarp"
 	@echo "make package  one program for every x86-64: build-package/*.deb and *.tar.gz"
@@ -32,6 +33,11 @@ validate: deps
 	$(BUILD)/tests/validate $(BUILD)/validate
 	/usr/bin/python3 tools/figures/validate.py $(BUILD)/validate
 	/usr/bin/python3 tools/figures/length.py $(BUILD)/validate
+
+# STUDIES="steps plain ...": only those; tools/robustness.py --help
+robustness: build
+	/usr/bin/python3 tools/robustness.py $(BUILD)/bin/scarp $(if $(STUDIES),--only $(STUDIES))
+	/usr/bin/python3 tools/figures/robustness.py
 
 build: deps
 	cmake --preset release -DSCARP_TESTS=OFF -DSCARP_BENCH=OFF

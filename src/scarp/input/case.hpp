@@ -77,6 +77,14 @@ struct BoundaryInput {
   bool fix_x = false, fix_y = false, fix_z = false;
   std::array<bool, 3> fixed() const { return {fix_x, fix_y, fix_z}; }
   std::optional<double> friction;  ///< coefficient on a wall; the fixed component is the wall's normal
+  /// Soil beyond that absorbs, from the start of a stage on; fixed before that.
+  struct Absorbing {
+    std::string from;  ///< name of the stage
+    std::optional<double> thickness;
+    std::optional<std::array<double, 2>> impedance;
+    Position position;  ///< of `from`
+  };
+  std::optional<Absorbing> absorbing;
   Position position;
 };
 

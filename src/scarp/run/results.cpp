@@ -24,8 +24,16 @@ namespace fs = std::filesystem;
 /// Has this case use for a term of the balance of energy?
 template <int Dim>
 bool is_used(const typename Ledger<Dim>::Term& term, const input::CaseOf<Dim>& input) {
-  return term.always ||
-         std::any_of(input.stages.begin(), input.stages.end(), [](const auto& stage) { return stage.release > 0; });
+  using Use = typename Ledger<Dim>::Use;
+  const auto any = [](const auto& items, auto&& has) { return std::any_of(items.begin(), items.end(), has); };
+  switch (term.use) {
+    case Use::release:
+      return any(input.stages, [](const auto& stage) { return stage.release > 0; });
+    case Use::absorbing:
+      return any(input.boundaries, [](const auto& boundary) { return boundary.absorbing.has_value(); });
+    default:
+      return true;
+  }
 }
 
 template <int Dim>

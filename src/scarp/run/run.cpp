@@ -67,6 +67,7 @@ void print_profile(const Ledger<Dim>& ledger) {
   if (!(total > 0)) return;
   fmt::print("phase of the step                      share   ns per point and step\n");
   for (int i = 0; i < phases; ++i) {
+    if (ledger.seconds[i] == 0) continue;  // no part of these steps
     fmt::print("{:36} {:6.1f} %  {:8.1f}\n", phase_names[i], 100 * ledger.seconds[i] / total,
                1e9 * ledger.seconds[i] / static_cast<double>(ledger.point_steps));
   }

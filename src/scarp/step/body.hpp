@@ -13,6 +13,7 @@
 #include "scarp/step/books.hpp"
 #include "scarp/step/nonlocal.hpp"
 #include "scarp/step/release.hpp"
+#include "scarp/step/sides.hpp"
 #include "scarp/transfer/transfer.hpp"
 
 namespace scarp {
@@ -31,6 +32,7 @@ template <int Dim>
 struct Resistance {
   Vec<Dim> F_damping{};   ///< local damping
   Vec<Dim> F_friction{};  ///< of a wall
+  Vec<Dim> F_dashpot{};   ///< of an absorbing side
 };
 
 /// Buffers of a step.
@@ -71,6 +73,7 @@ struct Body {
   Conditions<Dim> conditions;
   Vec<Dim> gravity;
   Release<Dim> release;
+  Sides<Dim> sides;
   std::vector<Block<Dim>> blocks;
 
   ActiveElements active;

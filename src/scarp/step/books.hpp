@@ -24,6 +24,7 @@ struct StepBooks {
   double unbalanced_force = 0, weight = 0;  ///< Σ |F_grav − F_int| over free components and Σ |F_grav|, at nodes
   double work_gravity = 0, work_stress = 0;
   double work_release = 0;  ///< of the force that holds the initial imbalance back
+  double work_boundary = 0, dissipation_absorbing = 0, stored_sides = 0;  ///< of absorbing sides
   double dissipation_damping = 0, dissipation_friction = 0, dissipation_pic = 0;
   double energy_reweighted = 0;  ///< stored energy that points brought in where they changed element; no work
   double dissipation_waves = 0;  ///< of the damping of the rate of stress

@@ -244,9 +244,13 @@ void prepare(Body<Dim>& body) {
 }  // namespace
 
 template <int Dim>
+bool softens_over_length(const Body<Dim>& body) {
+  return std::any_of(body.blocks.begin(), body.blocks.end(), [](const auto& block) { return block.length > 0; });
+}
+
+template <int Dim>
 void average_softening(Body<Dim>& body, double dt) {
-  const auto has_length = [](const auto& block) { return block.length > 0; };
-  if (std::none_of(body.blocks.begin(), body.blocks.end(), has_length) || body.active.size() == 0) return;
+  if (body.active.size() == 0) return;
   auto& averages = body.averages;
   if (++averages.steps < averages.every) return;
   averages.steps = 0;
@@ -262,6 +266,8 @@ void average_softening(Body<Dim>& body, double dt) {
   }
 }
 
+template bool softens_over_length<2>(const Body<2>&);
+template bool softens_over_length<3>(const Body<3>&);
 template void average_softening<2>(Body<2>&, double);
 template void average_softening<3>(Body<3>&, double);
 

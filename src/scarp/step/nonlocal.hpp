@@ -35,7 +35,11 @@ struct Averages {
 
 namespace step {
 
-/// What is done after a step of dt [s]: nothing where no soil has a length.
+/// Has any soil a length?
+template <int Dim>
+bool softens_over_length(const Body<Dim>& body);
+
+/// What is done after a step of dt [s] then.
 template <int Dim>
 void average_softening(Body<Dim>& body, double dt);
 

@@ -153,7 +153,7 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
   }
   step::strain_stress_and_motion(body, dt, settings, books);          // 4, 6 to 11, eqs 6, 9–19 and section 3
   timed(Phase::order, [&] { order_points(body, settings, books); });  // 11
-  timed(Phase::averages, [&] { step::average_softening(body, dt); });
+  if (step::softens_over_length(body)) timed(Phase::averages, [&] { step::average_softening(body, dt); });
   return books;
 }
 

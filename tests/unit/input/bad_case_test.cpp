@@ -129,6 +129,19 @@ TEST(BadCase, MissingKeys) {
   });
 }
 
+TEST(BadCase, AbsorbingSides) {
+  const std::string left = "friction = 0.3";  // of the minimal case's second boundary
+  expect_all_refused({
+      {left, "@absorbing = false", "absorbing is true", "false", "write absorbing = true"},
+      {left, "absorbing = true", "from", "", "name of the stage", "[[boundary]]\nline"},
+      {left, "friction = 0.3\n@absorbing = true\nfrom = \"cut\"", "no wall with friction", "both", "leave one"},
+      {left, "absorbing = true\n@from = \"shake\"", "no stage has this name", "\"shake\"", "[[stage]]"},
+      {left, "absorbing = true\n@from = \"rest\"", "fixed for a stage before", "the first stage", "a stage with rest"},
+      {left, "absorbing = true\nfrom = \"cut\"\n@thickness = -1", "0 <= thickness", "-1", "within these bounds"},
+      {left, "absorbing = true\nfrom = \"cut\"\n@impedance = [1.0, 0.0]", "above zero", "", "density times"},
+  });
+}
+
 TEST(BadCase, OutOfBounds) {
   expect_all_refused({
       {"flip = 0.95", "@flip = 1.01", "flip must satisfy 0 <= flip <= 1", "1.01", "within these bounds"},
