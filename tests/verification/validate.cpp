@@ -1,6 +1,6 @@
 // The studies of `make validate`: the verification problems on more meshes and with all shape functions, minutes
-// instead of seconds. Writes errors.csv and discs.csv into a folder; tools/figures/validate.py draws them and prints
-// the tables of docs/verification.md.
+// instead of seconds. Writes errors.csv, discs.csv and schemes.csv into a folder; tools/figures/validate.py draws them
+// and prints the tables of docs/verification.md.
 #include <cstdio>
 #include <fstream>
 #include <functional>
@@ -12,6 +12,7 @@
 #include "discs.hpp"
 #include "manufactured.hpp"
 #include "scarp/exec/parallel.hpp"
+#include "scheme_studies.hpp"
 #include "vortex.hpp"
 
 namespace scarp::verification {
@@ -152,6 +153,7 @@ int main(int argc, char** argv) {
   }
   Studies::biaxial(argv[1]);
   if (argc == 3) return 0;
+  SchemeStudies(argv[1]).all();
   Studies studies(argv[1]);
   for (const Method& method : all_methods()) {
     std::printf("%s\n", method.name().c_str());

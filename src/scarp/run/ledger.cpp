@@ -11,6 +11,7 @@ void Ledger<Dim>::add(double step, int points, const StepBooks<Dim>& books) {
   last = books;
   search += books.search;
   for (const auto& term : balance()) this->*term.sum += books.*term.of_step;
+  energy_reweighted += books.energy_reweighted;
   removed_kinetic_energy += books.removed_energy;
   removed_mass += books.removed_mass;
   removed_points += books.removed;

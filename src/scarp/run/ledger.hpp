@@ -21,6 +21,7 @@ struct Ledger {
   double work_gravity = 0, work_stress = 0, work_release = 0, work_boundary = 0;
   double dissipation_damping = 0, dissipation_friction = 0, dissipation_pic = 0, dissipation_waves = 0;
   double dissipation_absorbing = 0, stored_sides = 0;
+  double energy_reweighted = 0;  ///< no part of the balance: stored energy, of which the balance knows the work alone
   std::array<double, phases> seconds{};  ///< of each Phase; only where asked for
   std::int64_t removed_points = 0, failures = 0, corrected = 0, substeps = 0;
 

@@ -218,7 +218,7 @@ void run_stage(Context<Dim>& context, int index, StageRecord& record) {
   open_sides(body, input, settings, index);
   LettingGo<Dim> imbalance(stage.release, ledger.time, body);
   Clock frames(ledger.time, input.output.every), rows(ledger.time, input.output.history);
-  double critical = critical_time_step(body, settings.scheme);
+  double critical = critical_time_step(body, settings.scheme, settings.damping);
   bool resting = false, first = true, energy_said = energy.largest_ratio() > EnergyCheck::worth_a_warning;
 
   while (ledger.time < end && !resting && !interrupted()) {

@@ -43,6 +43,7 @@ struct Buffers {
   Column weight;                     ///< w of its quadrature
   Column shift;                      ///< transfer::Shift of its quadrature, as stored: shift_row numbers
   std::size_t shift_row = 0;
+  std::vector<std::uint8_t> left;             ///< has a point left it in this step?
   std::vector<std::uint8_t> mean_dilatation;  ///< is the volume strain of its points their mean?
   Column hoop_shift;                          ///< the same of N_i / r, in a body of revolution
   Column mass_matrix;                         ///< M_ij, where elements keep it
@@ -57,6 +58,9 @@ struct Buffers {
   std::vector<Resistance<Dim>> resistance;  ///< with damping, and where nodes are not free
   std::vector<Strains<Dim>> strains;        ///< of each thread
   std::vector<StepBooks<Dim>> books;        ///< of each chunk
+  // Elements whose quadrature changes with the points that do (reweighted.hpp), and which of all these are.
+  std::vector<int> changed;
+  std::vector<std::uint8_t> is_changed;
 };
 
 /// Soil on its background mesh. The mesh is held by pointer, so that it stays where the locator saw it.

@@ -261,6 +261,7 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
   if constexpr (transfer::has_shift<Basis>) {
     if (element.mean_dilatation) element.mean_dilation = transfer::mean_dilation<Basis>(cell, element.motion);
   }
+  const std::int64_t changed = books.changed_element;
   transfer::nodes_to_points<pic, Basis>(
       cell, element, rules.motion, block.points, points_of(block, slot), strains, at, motion.sums,
       [&](const auto& p, const auto& x, const auto& before) {
@@ -271,6 +272,8 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
         if (inside != first_bits(p.count())) [[unlikely]]
           find_new_elements(body.locator, e, p, inside, block.points, books);
       });
+  if (books.changed_element != changed) [[unlikely]]
+    body.buffers.left[slot] = 1;
 }
 
 template <bool pic, int Dim>
@@ -350,7 +353,7 @@ void strain_stress_and_motion(Body<Dim>& body, double dt, const StepSettings& se
       const Stopwatch<Dim> watch(settings.profile, part, Phase::stress);
       const PointRange range{block.order.data() + block.begin[first], block.begin[last] - block.begin[first]};
       exec::update_stresses(block, range, strains, 0, dt, settings.integration, part.stress,
-                            scheme::waves(scheme, is_elastic(block.model)));
+                            scheme::waves(scheme, is_elastic(block.model), settings.damping));
     }
   });
   books.work_stress = books.stress.work;

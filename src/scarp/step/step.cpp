@@ -10,6 +10,7 @@
 #include "scarp/exec/arrange.hpp"
 #include "scarp/exec/parallel.hpp"
 #include "scarp/step/phases.hpp"
+#include "scarp/step/reweighted.hpp"
 
 namespace scarp {
 namespace {
@@ -48,6 +49,8 @@ template <int Dim>
 template <int Dim>
 void order_points(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books) {
   if (books.changed_element == 0) return;
+  step::find_changed_elements(body);
+  const double stored = step::energy_of_changed_elements(body, settings);
   if (books.left_mesh > 0) {
     for (auto& block : body.blocks) {
       const auto& element = block.points.element;
@@ -59,6 +62,7 @@ void order_points(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>&
     book_motion(body, books);
   }
   reorder(body);
+  books.energy_reweighted = step::energy_of_changed_elements(body, settings) - stored;
   // Sweeps by element reach out of order for these points; a tenth of them is where putting all in order again pays.
   body.out_of_place += books.changed_element;
   if (10 * body.out_of_place > body.point_count()) {
@@ -131,19 +135,19 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
 }
 
 template <int Dim>
-double critical_time_step(const Body<Dim>& body, const Scheme& scheme) {
+double critical_time_step(const Body<Dim>& body, const Scheme& scheme, double local_damping) {
   double dt = std::numeric_limits<double>::infinity();
   for (const auto& block : body.blocks) {
     dt = std::min(dt, exec::critical_time_step(block, body.mesh->size, body.active, body.buffers.weight,
-                                               scheme::waves(scheme, is_elastic(block.model))));
+                                               scheme::waves(scheme, is_elastic(block.model), local_damping)));
   }
   return dt;
 }
 
 template StepBooks<2> advance<2>(Body<2>&, double, const StepSettings&);
 template StepBooks<3> advance<3>(Body<3>&, double, const StepSettings&);
-template double critical_time_step<2>(const Body<2>&, const Scheme&);
-template double critical_time_step<3>(const Body<3>&, const Scheme&);
+template double critical_time_step<2>(const Body<2>&, const Scheme&, double);
+template double critical_time_step<3>(const Body<3>&, const Scheme&, double);
 template void book_motion<2>(const Body<2>&, StepBooks<2>&);
 template void book_motion<3>(const Body<3>&, StepBooks<3>&);
 
