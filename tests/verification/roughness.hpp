@@ -105,7 +105,7 @@ inline double roughness_at_rest(const Scheme& scheme, Cells cells, double h, dou
   double unbalanced = 0;
   run_until(body, 2, 0.5, settings,
             [&](double, const StepBooks<2>& books) { unbalanced = books.unbalanced_force / books.weight; });
-  return unbalanced < 1e-3 ? roughness(body) : std::nan("");
+  return unbalanced < 3e-3 ? roughness(body) : std::nan("");
 }
 
 }  // namespace scarp::verification
