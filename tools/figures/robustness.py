@@ -130,6 +130,10 @@ def draw_column(plt, out, studies, table):
                                         (axes[1], "height", "C0", "at the wall")):
             axis.plot(a, [number(row[key]) for row in mine], style, color=colour, mfc="none" if parts == 10 else None, ms=5,
                       label=f"{says}, h = L0/{parts}")
+    stronger = [row for row in table if row["study"] == "column" and row["name"].endswith("L0/20, 36.9°")]
+    a = [float(row["name"].split()[2].rstrip(",")) for row in stronger]
+    for axis, key, says in ((axes[0], "toe", "98 % of the mass"), (axes[1], "height", "at the wall")):
+        axis.plot(a, [number(row[key]) for row in stronger], "^", color="C2", ms=5, label=f"{says}, h = L0/20, φ = 36.9°")
     axes[0].set_yticks([0.5, 1, 2, 5, 10], ["0.5", "1", "2", "5", "10"])
     axes[1].set_yticks([0.5, 1, 1.5, 2], ["0.5", "1", "1.5", "2"])
     for axis, says in zip(axes, ("run-out (L∞ − L0)/L0", "height of the deposit H∞/L0")):
