@@ -14,7 +14,6 @@ import os
 import pathlib
 import subprocess
 import sys
-import tomllib
 
 import numpy as np
 
@@ -23,8 +22,8 @@ sys.path.insert(0, str(ROOT / "python/scarp"))
 import vtu  # noqa: E402
 
 CSV = ROOT / "docs/figures/robustness.csv"
-FIELDS = ("study", "name", "status", "begins", "toe", "furthest", "crest", "moved", "mean", "behind", "front", "height", "volume",
-          "separated", "speed", "energy_error", "largest_energy_error", "removed", "steps", "wall")
+FIELDS = ("study", "name", "status", "begins", "toe", "furthest", "crest", "moved", "mean", "behind", "front", "height",
+          "volume", "separated", "speed", "energy_error", "largest_energy_error", "removed", "steps", "wall")
 
 
 @dataclasses.dataclass
@@ -78,9 +77,6 @@ def cut(study, name, h=0.8, spacing=None, shift=0.0, case=CUT, threads=1, **of_m
                     "region.slope.spacing": spacing or 0.4 * h}
     elif spacing:
         changes["region.slope.spacing"] = spacing
-    if of_method.get("scheme") == "apic":  # a first step makes what its points carry: without, `release` fails
-        stages = tomllib.loads((ROOT / case).read_text(encoding="utf-8"))["stage"]
-        changes = {"stage": [{"name": "first", "duration": 1e-4}, *stages], **changes}
     if s:
         changes["region.slope.polygon"] = [[0.0, 0.0], [45.0, 0.0], [45.0, 5 + s], [30 + s, 5 + s], [15 + s, 15 + s],
                                            [0.0, 15 + s]]
@@ -130,7 +126,8 @@ def column(a, parts, phi=31.0, **of_method):
     high = top + 0.4
     changes = {"mesh.grid": {"size": [width, high], "element": 1.0 / parts}, "region.column.spacing": 0.5 / parts,
                "region.column.polygon": [[0.0, 0.0], [1.0, 0.0], [1.0, top], [0.0, top]],
-               "stage.collapse.duration": round(0.5 + 4.0 * (a / 9.81) ** 0.5, 1), "method": method(leaving="remove", **of_method)}
+               "stage.collapse.duration": round(0.5 + 4.0 * (a / 9.81) ** 0.5, 1),
+               "method": method(leaving="remove", **of_method)}
     name = f"a = {a}, L0/{parts}" + (f", {of_method['scheme']}" if of_method else "")
     if phi != 31.0:
         name, changes["material.sand.phi"] = f"{name}, {phi}°", phi
@@ -272,8 +269,9 @@ def measure_cut(folder, summary, frame, place):
     if moved.any():
         x, origin = frame["Points"][moved, 0], (frame["Points"] - frame["displacement"])[moved]
         high = origin[origin[:, 1] > place["above"], 0]
-        found |= {"mean": np.average(length[moved], weights=mass(frame)[moved]), "toe": beyond(x, mass(frame)[moved], 0.98) - place["x"], "furthest": x.max() - place["x"],
-                  "crest": high.min() if len(high) else np.nan}
+        weight = mass(frame)[moved]
+        found |= {"mean": np.average(length[moved], weights=weight), "toe": beyond(x, weight, 0.98) - place["x"],
+                  "furthest": x.max() - place["x"], "crest": high.min() if len(high) else np.nan}
     return found
 
 
