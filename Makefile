@@ -32,6 +32,7 @@ validate: deps
 	mkdir -p $(BUILD)/validate
 	$(BUILD)/tests/validate $(BUILD)/validate
 	/usr/bin/python3 tools/figures/validate.py $(BUILD)/validate
+	/usr/bin/python3 tools/figures/length.py $(BUILD)/validate
 
 # STUDIES="steps plain ...": only those; tools/robustness.py --help
 robustness: build

@@ -88,6 +88,37 @@ class Results(ProgramTest):
         self.assertAlmostEqual(self.summary("space")["stages"][0]["max_displacement"],
                                self.summary("plane")["stages"][0]["max_displacement"], delta=1e-12)
 
+    def test_absorbing_sides_in_the_plane_in_space_and_in_revolution(self):
+        # A falling column between sides that are let go: the plane one is the one in space times its thickness.
+        def opened(text):
+            text = replaced(text, "duration = 0.2\ndamping = 0.5", "duration = 0.01")
+            for side in ("left", "right"):
+                text = replaced(text, f'nodes = "{side}"\nfix = ["x"]',
+                                f'nodes = "{side}"\nfix = ["x"]\nabsorbing = true\nfrom = "free"\nthickness = 10.0')
+            return replaced(text, "[output]", '[[stage]]\nname = "free"\nduration = 0.3\n\n[output]')
+
+        self.write("plane.toml", replaced(opened(COLUMN), "spacing = 0.25", "spacing = 0.25\nvelocity = [0.0, -0.1]"))
+        self.write("space.toml", replaced(opened(COLUMN_IN_SPACE), "spacing = 0.25", "spacing = 0.25\nvelocity = [0.0, 0.0, -0.1]"))
+        for case in ("plane", "space"):
+            self.scarp("run", f"{case}.toml", "--quiet", "--out", case)
+        plane, space = self.history("plane"), self.history("space")
+        for key in ("kinetic_energy", "work_boundary", "dissipation_absorbing", "stored_sides"):
+            largest = max(abs(row[key]) for row in plane)
+            self.assertGreater(largest, 0)
+            for a, b in zip(plane, space):
+                self.assertAlmostEqual(0.5 * a[key], b[key], delta=1e-10 * largest, msg=key)
+        self.assertGreater(plane[-1]["dissipation_absorbing"], plane[0]["dissipation_absorbing"])
+        # The side of a body of revolution has its radius times the plane one's area; it stays at rest where it was in balance.
+        round_ = replaced(replaced(COLUMN, "[mesh]", "axisymmetric = true\n\n[mesh]"), 'nodes = "right"\nfix = ["x"]',
+                          'nodes = "right"\nfix = ["x"]\nabsorbing = true\nfrom = "free"\nthickness = 10.0')
+        round_ = replaced(round_, "[output]", '[[stage]]\nname = "free"\nduration = 0.3\n\n[output]')
+        round_ = replaced(round_, "[[material]]", '[method]\nquadrature = "points"\n\n[[material]]')
+        self.write("round.toml", round_)
+        self.scarp("run", "round.toml", "--quiet")
+        self.assertLess(self.history("round.out")[-1]["kinetic_energy"], 1e-20)
+        self.write("gimp.toml", replaced(opened(COLUMN), "[[material]]", '[method]\nshape = "gimp"\n\n[[material]]'))
+        self.refused("check", "gimp.toml", parts=["linear shape functions only"])
+
     def test_the_profile_shares_out_the_whole(self):
         text = self.scarp("run", "column.toml", "--quiet", "--profile").stdout
         shares = [float(share) for share in re.findall(r" (\d+\.\d) %", text)]

@@ -100,13 +100,13 @@ void set_state(Block<Dim>& block, int i) {
 
 /// Soil on a mesh of the unit square or cube: points in random places of a lattice of `along` cells on each axis over
 /// 0.2 to 0.8, under an isotropic pressure, moving and turning. Held at the bottom by friction, at the other sides by
-/// their normals.
+/// their normals. It softens over `length`.
 template <int Dim>
-Body<Dim> soil(Mesh<Dim> mesh, const AnyModel& model, int along, double speed) {
+Body<Dim> soil(Mesh<Dim> mesh, const AnyModel& model, int along, double speed, double length = 0) {
   Vec<Dim> g{};
   g[Dim - 1] = -9.81;
   Body<Dim> body(std::make_unique<const Mesh<Dim>>(std::move(mesh)), g);
-  Block<Dim> block("soil", model);
+  Block<Dim> block("soil", model, length);
   const int count = static_cast<int>(std::lround(std::pow(along, Dim)));
   resize(block, count);
   std::mt19937 random(11);

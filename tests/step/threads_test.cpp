@@ -31,9 +31,10 @@ std::vector<std::uint64_t> bits(Body<Dim>& body, const StepBooks<Dim>& books) {
 }
 
 template <int Dim>
-std::vector<std::uint64_t> run(int threads, Mesh<Dim> mesh, const AnyModel& model, int along, int steps, double speed) {
+std::vector<std::uint64_t> run(int threads, Mesh<Dim> mesh, const AnyModel& model, int along, int steps, double speed,
+                               double length = 0) {
   exec::set_threads(threads);
-  auto body = soil<Dim>(std::move(mesh), model, along, speed);
+  auto body = soil<Dim>(std::move(mesh), model, along, speed, length);
   const double dt = 0.3 * critical_time_step(body);
   const StepSettings settings{
       .scheme = report_scheme(0.99), .damping = 0.05, .quadrature = Quadrature::corrected, .integration = {1e-4, 1e-5}};
@@ -51,6 +52,10 @@ std::vector<std::uint64_t> run(int threads, Mesh<Dim> mesh, const AnyModel& mode
     reorder(body);
   }
   EXPECT_GT(10 * changed, body.point_count());  // so all were put in order at least once
+  if (length > 0) {
+    const auto& kappa_hat = body.blocks[0].state.end()[-2];
+    EXPECT_GT(*std::max_element(kappa_hat.begin(), kappa_hat.end()), 0) << "nothing has softened";
+  }
   exec::set_threads(1);
   return bits(body, books);
 }
@@ -102,6 +107,31 @@ TEST(SameBitsOn1And2And3And8Threads, EveryModelOnAGrid) {
     SCOPED_TRACE(description_of(model).name);
     expect_same([&](int threads) { return run<2>(threads, plane_mesh(Background::grid, 30), model, 40, 60, 0.5); });
   }
+}
+// Averages over a length of 2.5 elements, on every kind of mesh and for every law that softens.
+TEST(SameBitsOn1And2And3And8Threads, SofteningOverALengthInThePlane) {
+  for (const auto kind : {Background::grid, Background::gimp, Background::b_spline, Background::quads,
+                          Background::triangles, Background::mixed}) {
+    SCOPED_TRACE(static_cast<int>(kind));
+    expect_same([&](int threads) { return run<2>(threads, plane_mesh(kind, 30), subloading(), 44, 60, 1.0, 0.08); });
+  }
+}
+TEST(SameBitsOn1And2And3And8Threads, SofteningOverALengthInSpace) {
+  for (const auto kind : {Background::grid, Background::mixed}) {
+    SCOPED_TRACE(static_cast<int>(kind));
+    expect_same([&](int threads) { return run<3>(threads, solid_mesh(kind, 10), subloading(), 14, 60, 1.0, 0.25); });
+  }
+}
+TEST(SameBitsOn1And2And3And8Threads, EveryLawThatSoftensOverALength) {
+  int softening = 0;
+  for (const auto& model : every_model()) {
+    if (!(kappa_c_of(model) > 0)) continue;
+    ++softening;
+    SCOPED_TRACE(description_of(model).name);
+    expect_same(
+        [&](int threads) { return run<2>(threads, plane_mesh(Background::grid, 30), model, 40, 60, 2.0, 0.1); });
+  }
+  EXPECT_EQ(softening, 6);
 }
 TEST(SameBitsOn1And2And3And8Threads, ElasticBodyOfRevolution) {
   expect_same(

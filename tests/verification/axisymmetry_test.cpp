@@ -54,7 +54,7 @@ TEST(BodyOfRevolution, RadialExpansionStrainsTheCircumferenceAsMuch) {
       element.motion[i] = motion[i].row.data();
     }
     transfer::nodes_to_points<false, Basis>(
-        Basis::Cell(*body.mesh, e), element, 1, block.points,
+        Basis::Cell(*body.mesh, e), element, {}, block.points,
         {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, strains, block.begin[slot],
         sums, [](const auto&...) {});
   }

@@ -62,10 +62,10 @@ inline AnyModel linear_elastic(double E, double nu) {
   return LinearElastic({E, nu});
 }
 
-/// Steps of equal length no longer than `safety` critical ones until `end`, f(time, books) after each.
+/// Steps of equal length no longer than `safety` critical ones of the scheme until `end`, f(time, books) after each.
 template <class F>
 void run_until(Body<2>& body, double end, double safety, const StepSettings& settings, F&& f) {
-  const double critical = critical_time_step(body);
+  const double critical = critical_time_step(body, settings.scheme, settings.damping);
   const int steps = static_cast<int>(std::ceil(end / (safety * critical)));
   const double dt = end / steps;
   for (int s = 1; s <= steps; ++s) f(s * dt, advance(body, dt, settings));

@@ -50,7 +50,7 @@ TEST_P(Discs, PicTakesEnergyAndKeepsMomentum) {
   double before = 1.0;
   for (const double flip : {0.99, 0.9, 0.0}) {
     Method method{GetParam()};
-    method.flip = flip;
+    method.scheme = report_scheme(flip);
     const auto run = collide(20, method);
     EXPECT_LT(run.momentum, 1e-13);
     const auto e = energies(run);

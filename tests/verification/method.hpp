@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,16 +26,34 @@ inline constexpr auto label_of = [](const auto& its) {
   return name;
 };
 
+/// A scheme with nothing in it that takes energy: no PIC share, no damping of waves.
+inline Scheme undamped(Scheme scheme) {
+  scheme.pic_time = std::numeric_limits<double>::infinity();
+  scheme.damping = {0.0, 0};
+  return scheme;
+}
+
+struct NamedScheme {
+  const char* name;
+  Scheme scheme;
+};
+
+/// The schemes of the step, undamped. (The points of apic take the nodes' velocities in every step all the same.)
+inline std::vector<NamedScheme> all_schemes() {
+  return {{"report", report_scheme()}, {"two-term", undamped(two_term_scheme())}, {"apic", undamped(apic_scheme())}};
+}
+
 /// Shape functions and the settings of the step.
 struct Method {
   GridFunctions shape = GridFunctions::linear;
   Quadrature quadrature = Quadrature::corrected;
-  double flip = 1, damping = 0;  ///< flip of the report's scheme
+  Scheme scheme = report_scheme();
+  double damping = 0;
 
   StepSettings settings() const {
     StepSettings s;
     s.quadrature = quadrature;
-    s.scheme = report_scheme(flip);
+    s.scheme = scheme;
     s.damping = damping;
     return s;
   }

@@ -168,7 +168,7 @@ TEST(RigidRotation, TurnsStressBetaAndCentreWithTheBody) {
         element.motion[i] = motion[i].row.data();
       }
       transfer::nodes_to_points<false, GridLinear<2>>(
-          GridLinear<2>::Cell(*body.mesh, e), element, 1, block.points,
+          GridLinear<2>::Cell(*body.mesh, e), element, {}, block.points,
           {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, strains,
           block.begin[slot], sums, [](const auto&...) {});
     }

@@ -124,7 +124,7 @@ void move_with_nodes(Body<Dim>& body, const Matrix& m) {
       element.motion[i] = motion[i].row.data();
     }
     transfer::nodes_to_points<false, Basis>(
-        typename Basis::Cell(*body.mesh, e), element, 1, block.points,
+        typename Basis::Cell(*body.mesh, e), element, {}, block.points,
         {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, strains, block.begin[slot],
         sums, [](const auto&...) {});
   });

@@ -1,16 +1,18 @@
 // The studies of `make validate`: the verification problems on more meshes and with all shape functions, minutes
-// instead of seconds. Writes errors.csv and discs.csv into a folder; tools/figures/validate.py draws them and prints
-// the tables of docs/verification.md.
+// instead of seconds. Writes errors.csv, discs.csv and schemes.csv into a folder; tools/figures/validate.py draws them
+// and prints the tables of docs/verification.md.
 #include <cstdio>
 #include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "biaxial.hpp"
 #include "column.hpp"
 #include "discs.hpp"
 #include "manufactured.hpp"
 #include "scarp/exec/parallel.hpp"
+#include "scheme_studies.hpp"
 #include "vortex.hpp"
 
 namespace scarp::verification {
@@ -21,6 +23,32 @@ class Studies {
   explicit Studies(const std::string& folder) : errors_(folder + "/errors.csv"), discs_(folder + "/discs.csv") {
     errors_ << "problem,shape,quadrature,per_cell,n,quantity,value\n";
     discs_ << "problem,shape,quadrature,flip,n,t,kinetic,stored,angular_momentum,momentum\n";
+  }
+
+  /// Softening with and without an internal length: curves, and the plastic strain at the end.
+  static void biaxial(const std::string& folder) {
+    std::ofstream curves(folder + "/biaxial.csv"), points(folder + "/biaxial_points.csv");
+    curves << "length,n,strain,q,band\n";
+    points << "length,n,x,y,plastic\n";
+    char numbers[120];
+    for (const double length : {0.0, 0.1}) {
+      for (const int n : {10, 20, 30}) {
+        std::printf("biaxial test, length %g, %d elements\n", length, n);
+        std::fflush(stdout);
+        Biaxial test(n, length);
+        for (int k = 1; k <= 40; ++k) {
+          test.compress(0.002 * k);
+          std::snprintf(numbers, sizeof numbers, "%g,%d,%.4f,%.4f,%.4f\n", length, n, test.strain(), test.q(),
+                        test.band());
+          curves << numbers;
+        }
+        for (int i = 0; i < test.clay().size(); ++i) {
+          std::snprintf(numbers, sizeof numbers, "%g,%d,%.5f,%.5f,%.5f\n", length, n, test.clay().x[0][i],
+                        test.clay().x[1][i], test.plastic(i));
+          points << numbers;
+        }
+      }
+    }
   }
 
   void manufactured(const Method& method) {
@@ -63,11 +91,11 @@ class Studies {
 
   void discs(Method method) {
     for (const double flip : {1.0, 0.99, 0.9, 0.0}) {
-      method.flip = flip;
+      method.scheme = report_scheme(flip);
       history("colliding discs", method, 20, collide(20, method));
       history("turning disc", method, 20, turn_disc(20, method));
     }
-    method.flip = 1;
+    method.scheme = report_scheme();
     for (const int n : {40, 80}) history("turning disc", method, n, turn_disc(n, method));
   }
 
@@ -101,7 +129,7 @@ class Studies {
   void history(const char* problem, const Method& method, int n, const DiscRun& run) {
     for (const auto& at : run.history) {
       char numbers[160];
-      std::snprintf(numbers, sizeof numbers, "%g,%d,%.6g,%.8e,%.8e,%.8e,%.1e", method.flip, n, at.t, at.kinetic,
+      std::snprintf(numbers, sizeof numbers, "%g,%d,%.6g,%.8e,%.8e,%.8e,%.1e", method.scheme.flip, n, at.t, at.kinetic,
                     at.stored, at.angular_momentum, run.momentum);
       discs_ << problem << ',' << name_of(method.shape) << ',' << text(method.quadrature) << ',' << numbers << '\n';
     }
@@ -119,10 +147,13 @@ class Studies {
 int main(int argc, char** argv) {
   using namespace scarp::verification;
   scarp::exec::wait_politely(argv);
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: %s FOLDER\n", argv[0]);
+  if (argc != 2 && !(argc == 3 && std::string(argv[2]) == "biaxial")) {
+    std::fprintf(stderr, "usage: %s FOLDER [biaxial]\n", argv[0]);
     return 2;
   }
+  Studies::biaxial(argv[1]);
+  if (argc == 3) return 0;
+  SchemeStudies(argv[1]).all();
   Studies studies(argv[1]);
   for (const Method& method : all_methods()) {
     std::printf("%s\n", method.name().c_str());

@@ -1,6 +1,6 @@
 """Draws the studies of `make validate` and prints the tables of docs/verification.md.
 
-Reads errors.csv and discs.csv from the folder that build/tests/validate has written.
+Reads errors.csv, discs.csv and schemes.csv from the folder that build/tests/validate has written.
 """
 
 import argparse
@@ -159,6 +159,21 @@ def print_discs(discs):
                   f"| {turned} |")
 
 
+def print_schemes(schemes):
+    """A row for each problem and quantity, a column for each scheme."""
+    names = list(dict.fromkeys(row["scheme"] for row in schemes))
+    found = {}
+    for row in schemes:
+        key = row["problem"], int(row["n"]), row["quantity"]
+        found.setdefault(key, {})[row["scheme"]] = float(row["value"])
+    print("\n| problem | n | quantity | " + " | ".join(names) + " |")
+    print("| --- " * (len(names) + 3) + "|")
+    for (problem, n, quantity), values in found.items():
+        if quantity != "broke down":
+            print(f"| {problem} | {n} | {quantity} | "
+                  + " | ".join(number(values.get(name, math.nan)) for name in names) + " |")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", nargs="?", type=pathlib.Path, default=ROOT / "build/validate")
@@ -171,6 +186,7 @@ def main():
         for quantity in quantities:
             print_table(errors, problem, quantity)
     print_discs(discs)
+    print_schemes(rows(folder / "schemes.csv"))
     plt = pyplot()
     draw_convergence(plt, errors)
     draw_discs(plt, discs)

@@ -265,9 +265,14 @@ class Update {
 
   State<double> load_state(int p) const {
     State<double> s;
-    with_state(block_, p, [&](const auto&, const auto& state) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(state)>, State<double>>) s = state;
-    });
+    const int columns = state_columns<N>(model_);
+    int c = 0;
+    for_each_component(
+        [&](double& x) {
+          x = c < N ? -points_.sigma[c][p] : c - N < columns ? block_.state[c - N][p] : 0.0;
+          ++c;
+        },
+        s);
     return s;
   }
 
@@ -322,9 +327,16 @@ StressBooks& StressBooks::operator+=(const StressBooks& other) {
 
 template <int Dim>
 void update_stresses(Block<Dim>& block, PointRange range, const Strains<Dim>& strains, int at, double dt,
-                     const IntegrationSettings& settings, const WaveSettings& waves, StressBooks& books) {
+                     const IntegrationSettings& settings, StressBooks& books, const WaveSettings& waves) {
   std::visit(
       [&]<class Model>(const Model& model) {
+        if constexpr (Averaged<Model>) {
+          if (block.length > 0) {
+            const Nonlocal<Model> nonlocal(model);
+            Update<Nonlocal<Model>, Dim>(nonlocal, block, strains, dt, settings, waves, books)(range, at);
+            return;
+          }
+        }
         Update<Model, Dim>(model, block, strains, dt, settings, waves, books)(range, at);
       },
       block.model);
@@ -351,9 +363,9 @@ double critical_time_step(const Block<Dim>& block, const std::vector<double>& el
 }
 
 template void update_stresses<2>(Block<2>&, PointRange, const Strains<2>&, int, double, const IntegrationSettings&,
-                                 const WaveSettings&, StressBooks&);
+                                 StressBooks&, const WaveSettings&);
 template void update_stresses<3>(Block<3>&, PointRange, const Strains<3>&, int, double, const IntegrationSettings&,
-                                 const WaveSettings&, StressBooks&);
+                                 StressBooks&, const WaveSettings&);
 template double critical_time_step<2>(const Block<2>&, const std::vector<double>&, const ActiveElements&, const Column&,
                                       const WaveSettings&);
 template double critical_time_step<3>(const Block<3>&, const std::vector<double>&, const ActiveElements&, const Column&,

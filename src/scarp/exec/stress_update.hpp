@@ -56,7 +56,7 @@ struct StressBooks {
 /// increments in `strains` from place `at` on.
 template <int Dim>
 void update_stresses(Block<Dim>& block, PointRange range, const Strains<Dim>& strains, int at, double dt,
-                     const IntegrationSettings& settings, const WaveSettings& waves, StressBooks& books);
+                     const IntegrationSettings& settings, StressBooks& books, const WaveSettings& waves = {});
 
 /// The least 1 / (c/(k h) + |v|/h) over the points of a block, with c the compression wave speed of their present
 /// stiffness; infinite where no point has stiffness. `weight` is that of the points in the quadrature of the active
@@ -65,24 +65,26 @@ template <int Dim>
 double critical_time_step(const Block<Dim>& block, const std::vector<double>& element_size,
                           const ActiveElements& active, const Column& weight, const WaveSettings& waves);
 
-/// Calls f(model, state of point i with N components, compression positive) for point i of a block.
+/// State of point i of a block of this model, with N components, compression positive.
+template <int Dim, class Model>
+typename Model::template State<double, sym_size<Dim>> state_of(const Block<Dim>& block, const Model& model, int i) {
+  constexpr int N = sym_size<Dim>;
+  typename Model::template State<double, N> s;
+  const int columns = state_columns<N>(model);
+  int c = 0;
+  for_each_component(
+      [&](double& x) {
+        x = c < N ? -block.points.sigma[c][i] : c - N < columns ? block.state[c - N][i] : 0.0;
+        ++c;
+      },
+      s);
+  return s;
+}
+
+/// Calls f(model, state of point i) for point i of a block.
 template <int Dim, class F>
 void with_state(const Block<Dim>& block, int i, F&& f) {
-  std::visit(
-      [&]<class Model>(const Model& model) {
-        constexpr int N = sym_size<Dim>;
-        typename Model::template State<double, N> s;
-        const int columns = state_columns<N>(model);
-        int c = 0;
-        for_each_component(
-            [&](double& x) {
-              x = c < N ? -block.points.sigma[c][i] : c - N < columns ? block.state[c - N][i] : 0.0;
-              ++c;
-            },
-            s);
-        f(model, s);
-      },
-      block.model);
+  std::visit([&](const auto& model) { f(model, state_of<Dim>(block, model, i)); }, block.model);
 }
 
 }  // namespace scarp::exec

@@ -72,6 +72,29 @@ void read_friction(const Node& friction, BoundaryInput& boundary) {
                    "fix only the component across the wall", friction.position);
 }
 
+std::array<double, 2> read_impedance(const Node& node) {
+  const auto Z = vector_in<2>(node, "impedance");
+  if (Z[0] > 0 && Z[1] > 0) return Z;
+  throw InputError("impedance is that of compression and of shear waves, both above zero", describe(node),
+                   "give density times wave speed of the soil beyond, such as impedance = [600.0, 300.0]",
+                   node.position);
+}
+
+void read_absorbing(Table& table, const Node& word, BoundaryInput& boundary) {
+  const bool* absorbing = std::get_if<bool>(&word.value);
+  if (!absorbing || !*absorbing)
+    throw InputError("absorbing is true, or left out", describe(word), "write absorbing = true", word.position);
+  if (boundary.friction)
+    throw InputError("a side that absorbs is no wall with friction", "both friction and absorbing",
+                     "leave one of them out", word.position);
+  const Node& from = table.need("from", "add from = \"shake\", the name of the stage with which it begins");
+  auto& its = boundary.absorbing.emplace();
+  its.from = text_in(from, "from");
+  its.position = from.position;
+  if (const Node* thickness = table.find("thickness")) its.thickness = number_in(*thickness, "thickness", not_negative);
+  if (const Node* impedance = table.find("impedance")) its.impedance = read_impedance(*impedance);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -96,6 +119,7 @@ BoundaryInput read_boundary(const Node& node) {
   }
   read_fix<Dim>(table.need("fix", Words<Dim>::fix), boundary);
   if (const Node* friction = table.find("friction")) read_friction<Dim>(*friction, boundary);
+  if (const Node* word = table.find("absorbing")) read_absorbing(table, *word, boundary);
   table.finish();
   return boundary;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "scarp/base/log.hpp"
@@ -220,6 +221,24 @@ void check_gravity(const CaseOf<Dim>& input) {
   }
 }
 
+/// A side absorbs from a stage on, and what holds it then is what held it in the stage before.
+template <int Dim>
+void check_absorbing(const CaseOf<Dim>& input) {
+  for (const auto& boundary : input.boundaries) {
+    if (!boundary.absorbing) continue;
+    const auto& its = *boundary.absorbing;
+    const auto stage = std::find_if(input.stages.begin(), input.stages.end(),
+                                    [&](const auto& candidate) { return candidate.name == its.from; });
+    if (stage == input.stages.end())
+      throw InputError("no stage has this name", fmt::format("from = \"{}\"", its.from),
+                       "name the [[stage]] with which the side begins to absorb", its.position);
+    if (stage == input.stages.begin())
+      throw InputError("a side is fixed for a stage before it absorbs, so that its reaction is known",
+                       fmt::format("from = \"{}\", the first stage", its.from), "put a stage with rest before it",
+                       its.position);
+  }
+}
+
 template <int Dim>
 Vec<Dim> read_gravity(const Node& node, bool axisymmetric) {
   const auto gravity = vector_in<Dim>(node, "gravity");
@@ -255,6 +274,7 @@ CaseOf<Dim> read_tables(Table& table, const std::string& path) {
                                               [&](const Node& node) { return read_stage<Dim>(node, path); });
   table.finish();
   check_gravity(result);
+  check_absorbing(result);
   return result;
 }
 

@@ -36,6 +36,8 @@ struct MaterialInput {
   AnyModel model;      ///< constructed and checked
   double density = 0;  ///< [Mg/m3]
   Position position;
+  double length = 0;  ///< over which it softens [m]; 0: at each point by itself
+  Position length_position;
 };
 
 /// Where soil is: a polygon in two dimensions, a solid in three; shape() in both.
@@ -75,6 +77,14 @@ struct BoundaryInput {
   bool fix_x = false, fix_y = false, fix_z = false;
   std::array<bool, 3> fixed() const { return {fix_x, fix_y, fix_z}; }
   std::optional<double> friction;  ///< coefficient on a wall; the fixed component is the wall's normal
+  /// Soil beyond that absorbs, from the start of a stage on; fixed before that.
+  struct Absorbing {
+    std::string from;  ///< name of the stage
+    std::optional<double> thickness;
+    std::optional<std::array<double, 2>> impedance;
+    Position position;  ///< of `from`
+  };
+  std::optional<Absorbing> absorbing;
   Position position;
 };
 

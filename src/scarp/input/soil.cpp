@@ -8,6 +8,7 @@
 
 #include "scarp/base/log.hpp"
 #include "scarp/input/readers.hpp"
+#include "scarp/material/nonlocal.hpp"
 
 namespace scarp::input {
 namespace {
@@ -122,11 +123,34 @@ AnyModel read_law(Table& table, const std::string& file) {
   return *result.model;
 }
 
+namespace {
+
+/// The length over which a material softens, for laws that have something to lose with plastic strain.
+void read_length(const Node& node, MaterialInput& material) {
+  material.length = number_in(node, "length", not_negative);
+  material.length_position = node.position;
+  if (material.length == 0 || kappa_c_of(material.model) > 0) return;
+  const bool can = std::visit([]<class Law>(const Law&) { return Averaged<Law>; }, material.model);
+  const auto name = description_of(material.model).name;
+  throw InputError(
+      can ? fmt::format(
+                "the model {} softens over a length only where it softens, and these constants leave nothing to", name)
+          : fmt::format("the model {} has no softening that could have a length", name),
+      fmt::format("length = {:g}", material.length),
+      can ? "give it bonds to lose (c_b > 0) or residual strengths, or leave length out" : "leave length out",
+      node.position);
+}
+
+}  // namespace
+
 MaterialInput read_material(const Node& node, const std::string& case_path) {
   Table table(node, "[[material]]");
   std::string name = table.text("name", "add name = \"clay\", for instance");
   const double density = table.number("density", positive, "add the density of the soil, such as density = 1.8");
-  return {std::move(name), read_law(table, case_path), density, node.position};
+  const Node* length = table.find("length");
+  MaterialInput material{std::move(name), read_law(table, case_path), density, node.position, 0, {}};
+  if (length) read_length(*length, material);
+  return material;
 }
 
 namespace {

@@ -9,53 +9,19 @@
 //   compose(at, correction)  that difference as a tensor
 //   error_norm(s, error)     what the error of a stress is measured by
 //   K0()                     horizontal over vertical stress where nothing moves sideways
-// and, where its points part from the body at an apex (PartingState),
-//   opening(at, κ)           isotropic opening in the elastic strain that goes with a stress, see PartingState
+// and, where its points part from the body at an apex (PartingState, plastic_state.hpp),
+//   opening(at, κ)           isotropic opening in the elastic strain that goes with a stress
 #pragma once
 
 #include <cmath>
 #include <vector>
 
 #include "scarp/material/description.hpp"
-#include "scarp/material/gap.hpp"
 #include "scarp/material/increment.hpp"
+#include "scarp/material/plastic_state.hpp"
 #include "scarp/material/state.hpp"
 
 namespace scarp {
-
-template <class T, int N>
-struct PlasticState {
-  Sym<T, N> sigma;
-  Sym<T, N> epsp;  ///< plastic strain
-  T kappa;         ///< accumulated plastic deviatoric strain ∫ √(2/3) ‖dev dε^p‖
-
-  template <class F, class... States>
-  static void each(F&& f, States&... s) {
-    f(s.sigma...);
-    f(s.epsp...);
-    f(s.kappa...);
-  }
-};
-
-/// The state of a law whose points part from the body at an apex at zero stress. Of the plastic strain there, what the
-/// surfaces around the apex can flow along is theirs (shear, with its dilation); the rest is an isotropic opening:
-///   dε^p = dε^flow − (dgap/3) I,  dε^flow on the boundary of their cone of flow directions.
-/// So the gap grows exactly where the stress stays at the apex, and what would lead away from it closes the gap first.
-template <class T, int N>
-struct PartingState : PlasticState<T, N> {
-  T gap = T(0.0);
-
-  template <class F, class... States>
-  static void each(F&& f, States&... s) {
-    PlasticState<T, N>::each(f, s...);
-    f(s.gap...);
-  }
-};
-
-template <class State>
-concept HasGap = requires(const State& s) {
-  s.gap;
-};
 
 /// Isotropic linear elasticity.
 struct Elasticity {

@@ -12,6 +12,7 @@
 #include "scarp/base/column.hpp"
 #include "scarp/base/vec.hpp"
 #include "scarp/material/models.hpp"
+#include "scarp/material/nonlocal.hpp"
 #include "scarp/tensor/sym.hpp"
 
 namespace scarp {
@@ -60,16 +61,25 @@ Vec<Dim> position_of(const Points<Dim>& points, int i) {
 /// The points of one region, with their law and its state.
 template <int Dim>
 struct Block {
-  Block(std::string region, const AnyModel& law)
+  /// `internal_length` [m] is one over which the law softens (material/nonlocal.hpp), or 0; a law that has nothing to
+  /// average takes 0 only.
+  Block(std::string region, const AnyModel& law, double internal_length = 0)
       : name(std::move(region)),
         model(law),
-        state(
-            std::visit([](const auto& m) { return static_cast<std::size_t>(state_columns<sym_size<Dim>>(m)); }, law)) {}
+        length(internal_length),
+        state(std::visit(
+            [internal_length](const auto& m) {
+              return static_cast<std::size_t>(state_columns<sym_size<Dim>>(m) +
+                                              (internal_length > 0 ? nonlocal_columns(m) : 0));
+            },
+            law)) {}
 
   std::string name;
   AnyModel model;
+  double length = 0;  ///< over which it softens [m]; 0: at each point by itself
   Points<Dim> points;
-  std::vector<Column> state;  ///< columns of the model's state without sigma; compression positive, as in the model
+  std::vector<Column> state;  ///< columns of the model's state without sigma; compression positive, as in the model.
+                              ///< With a length the last three are κ, κ̂ and dκ̂/dt
 
   // Order by element, kept by sort_by_element(): the points of the active element in slot s are
   // order[begin[s]] ... order[begin[s + 1] - 1].

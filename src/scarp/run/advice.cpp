@@ -56,11 +56,12 @@ template <int Dim>
 void warn_of_ignored_flip(const input::CaseOf<Dim>& input) {
   if (input.method.scheme == input::SchemeName::report) return;
   const auto warn = [](double flip, const Position& position) {
-    logging::warn(InputError("flip is ignored: it is a share of each step, of scheme = \"report\", and makes the motion "
-                             "depend on the time step",
-                             fmt::format("flip = {:g}", flip),
-                             "leave it out; pic_time in [method] takes the place of flip below 1", position)
-                      .what());
+    logging::warn(
+        InputError("flip is ignored: it is a share of each step, of scheme = \"report\", and makes the motion "
+                   "depend on the time step",
+                   fmt::format("flip = {:g}", flip),
+                   "leave it out; pic_time in [method] takes the place of flip below 1", position)
+            .what());
   };
   if (input.method.ignored_flip) warn(input.method.flip, *input.method.ignored_flip);
   for (const auto& stage : input.stages) {

@@ -11,7 +11,8 @@ namespace scarp::run {
 template <int Dim>
 void warn_of_sparse_points(const input::CaseOf<Dim>& input, const Body<Dim>& body);
 
-/// Warns of a share of FLIP per step in a case whose scheme has no use for one: it is ignored, in [method] and in stages.
+/// Warns of a share of FLIP per step in a case whose scheme has no use for one: it is ignored, in [method] and in
+/// stages.
 template <int Dim>
 void warn_of_ignored_flip(const input::CaseOf<Dim>& input);
 

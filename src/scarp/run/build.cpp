@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "scarp/points/fill.hpp"
 #include "scarp/points/overburden.hpp"
 #include "scarp/run/initial.hpp"
+#include "scarp/run/lengths.hpp"
 
 namespace scarp::run {
 namespace {
@@ -55,14 +57,14 @@ std::unique_ptr<const Mesh<Dim>> make_mesh(const input::CaseOf<Dim>& input) {
 
 /// On the axis of a body of revolution nothing moves off it.
 template <int Dim>
-void hold_axis(Body<Dim>& body) {
-  if (!body.mesh->axisymmetric) return;
-  const double near = round_off * largest_coordinate(*body.mesh);
+void hold_axis(const Mesh<Dim>& mesh, Conditions<Dim>& conditions) {
+  if (!mesh.axisymmetric) return;
+  const double near = round_off * largest_coordinate(mesh);
   std::vector<int> axis;
-  for (int n = 0; n < body.mesh->node_count(); ++n) {
-    if (body.mesh->nodes[n][0] <= near) axis.push_back(n);
+  for (int n = 0; n < mesh.node_count(); ++n) {
+    if (mesh.nodes[n][0] <= near) axis.push_back(n);
   }
-  fix(body.conditions, axis, 0);
+  fix(conditions, axis, 0);
 }
 
 /// Nodes within round-off of the segment.
@@ -145,23 +147,41 @@ std::vector<int> nodes_of(const Mesh<Dim>& mesh, const input::BoundaryInput& inp
                    fmt::format("choose one of {}", fmt::join(names, ", ")), input.position);
 }
 
-template <int Dim>
-void set_conditions(Body<Dim>& body, const input::CaseOf<Dim>& input) {
-  hold_axis(body);
+/// What is imposed at nodes, by the boundaries that `counts`.
+template <int Dim, class Counts>
+Conditions<Dim> make_conditions(const Mesh<Dim>& mesh, const input::CaseOf<Dim>& input, Counts&& counts) {
+  Conditions<Dim> conditions(mesh.node_count());
+  hold_axis(mesh, conditions);
   for (const auto& boundary : input.boundaries) {
-    const auto nodes = nodes_of(*body.mesh, boundary);
+    if (!counts(boundary)) continue;
+    const auto nodes = nodes_of(mesh, boundary);
     const auto fixed = boundary.fixed();
     for (int j = 0; j < Dim; ++j) {
       if (!fixed[j]) continue;
       if (!boundary.friction) {
-        fix(body.conditions, nodes, j);
+        fix(conditions, nodes, j);
         continue;
       }
       try {
-        wall(body.conditions, *body.mesh, nodes, j, *boundary.friction);
+        wall(conditions, mesh, nodes, j, *boundary.friction);
       } catch (const InputError& error) {
         throw InputError(error.problem(), error.value(), error.remedy(), boundary.position);
       }
+    }
+  }
+  return conditions;
+}
+
+/// f(side, boundary) for the boundaries that absorb; an error of it is that of the boundary.
+template <int Dim, class F>
+void for_each_absorbing(const Mesh<Dim>& mesh, const input::CaseOf<Dim>& input, F&& f) {
+  for (const auto& boundary : input.boundaries) {
+    if (!boundary.absorbing) continue;
+    try {
+      f(AbsorbingSide{nodes_of(mesh, boundary), boundary.absorbing->thickness, boundary.absorbing->impedance},
+        boundary);
+    } catch (const InputError& error) {
+      throw InputError(error.problem(), error.value(), error.remedy(), boundary.position);
     }
   }
 }
@@ -170,7 +190,7 @@ void set_conditions(Body<Dim>& body, const input::CaseOf<Dim>& input) {
 template <int Dim>
 Block<Dim> make_block(const input::RegionInputOf<Dim>& region, const input::MaterialInput& material,
                       const FillingOf<Dim>& filling, bool axisymmetric, int first_id) {
-  Block<Dim> block(region.name, material.model);
+  Block<Dim> block(region.name, material.model, material.length);
   resize(block, static_cast<int>(filling.position.size()));
   auto& points = block.points;
   for (int i = 0; i < block.size(); ++i) {
@@ -227,7 +247,7 @@ Body<Dim> build_body(const input::CaseOf<Dim>& input) {
         make_block(region, input.materials[region.material], fillings[r], input.axisymmetric, first_id));
     first_id += body.blocks.back().size();
   }
-  set_conditions(body, input);
+  body.conditions = make_conditions(*body.mesh, input, [](const auto&) { return true; });
   const OverburdenOf<Dim> overburden(layers, std::abs(input.gravity[Dim - 1]));
   for (std::size_t r = 0; r < input.regions.size(); ++r) {
     set_initial_state(body.blocks[r], input.regions[r], overburden);
@@ -241,10 +261,32 @@ Body<Dim> build_body(const input::CaseOf<Dim>& input) {
     }
     throw;
   }
+  refuse_short_lengths(input, body);
+  // What is wrong with a side that will absorb is said now.
+  for_each_absorbing(*body.mesh, input, [&](const auto& side, const auto&) { soil_beyond(body, side); });
   return body;
+}
+
+template <int Dim>
+void open_sides(Body<Dim>& body, const input::CaseOf<Dim>& input, const StepSettings& settings, int stage) {
+  const auto index_of = [&](const std::string& name) {
+    const auto found =
+        std::find_if(input.stages.begin(), input.stages.end(), [&](const auto& its) { return its.name == name; });
+    return static_cast<int>(found - input.stages.begin());
+  };
+  const auto open = [&](const input::BoundaryInput& its) {
+    return its.absorbing && index_of(its.absorbing->from) <= stage;
+  };
+  for_each_absorbing(*body.mesh, input, [&](const auto& side, const auto& boundary) {
+    if (index_of(boundary.absorbing->from) != stage) return;
+    const auto others = make_conditions(*body.mesh, input, [&](const auto& other) { return !open(other); });
+    open_side(body, settings, side, others);
+  });
 }
 
 template Body<2> build_body<2>(const input::CaseOf<2>&);
 template Body<3> build_body<3>(const input::CaseOf<3>&);
+template void open_sides<2>(Body<2>&, const input::CaseOf<2>&, const StepSettings&, int);
+template void open_sides<3>(Body<3>&, const input::CaseOf<3>&, const StepSettings&, int);
 
 }  // namespace scarp::run

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scarp/input/case.hpp"
-#include "scarp/step/body.hpp"
+#include "scarp/step/step.hpp"
 
 namespace scarp::run {
 
@@ -11,5 +11,9 @@ namespace scarp::run {
 /// regions that overlap, a node set that the mesh does not have, an initial state that a model cannot take.
 template <int Dim>
 Body<Dim> build_body(const input::CaseOf<Dim>& input);
+
+/// Lets the sides go that absorb from stage number `stage` on. Throws InputError as build_body() does for them.
+template <int Dim>
+void open_sides(Body<Dim>& body, const input::CaseOf<Dim>& input, const StepSettings& settings, int stage);
 
 }  // namespace scarp::run

@@ -83,6 +83,16 @@ class Collector {
   /// What the models of the blocks declare; a name that several models have becomes one field.
   void model_fields();
 
+  /// κ̂ of soil that softens over a length, where there is some.
+  void kappa_hat() {
+    const auto& blocks = body_.blocks;
+    if (std::none_of(blocks.begin(), blocks.end(), [](const auto& block) { return block.length > 0; })) return;
+    add<double>("kappa_hat", [body = &body_](int b, int i) {
+      const auto& block = body->blocks[b];
+      return block.length > 0 ? block.state.end()[-2][i] : nothing;
+    });
+  }
+
   void add(io::Field&& field) { fields_.push_back(std::move(field)); }
   std::vector<io::Field> take() { return std::move(fields_); }
 
@@ -195,6 +205,7 @@ Frame frame_of(const Body<Dim>& body) {
   collect.scalar("volume", [](const Points<Dim>& p, int i) { return p.volume[i]; });
   collect.scalar("density", [](const Points<Dim>& p, int i) { return p.mass[i] / p.volume[i]; });
   collect.model_fields();
+  collect.kappa_hat();
   collect.template add<std::int32_t>("substeps", [=](int b, int i) { return blocks[b].points.substeps[i]; });
   collect.flag("separated", flag_separated);
   collect.flag("on_floor", flag_on_floor);

@@ -28,7 +28,7 @@ template <int Dim>
 
 template <int Dim, class State>
 void store(Block<Dim>& block, int i, const State& state) {
-  const int columns = static_cast<int>(block.state.size());
+  const int columns = static_cast<int>(block.state.size());  // those of κ̂ come after the law's
   constexpr int N = sym_size<Dim>;
   int c = 0;
   for_each_component(
@@ -151,6 +151,7 @@ void set_initial_state(Block<Dim>& block, const input::RegionInputOf<Dim>& regio
         }
       },
       block.model);
+  if (block.length > 0) block.state.end()[-2] = block.state.end()[-3];  // κ̂ starts at κ
 }
 
 template void set_initial_state<2>(Block<2>&, const input::RegionInputOf<2>&, const OverburdenOf<2>&);

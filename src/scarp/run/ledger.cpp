@@ -11,6 +11,7 @@ void Ledger<Dim>::add(double step, int points, const StepBooks<Dim>& books) {
   last = books;
   search += books.search;
   for (const auto& term : balance()) this->*term.sum += books.*term.of_step;
+  energy_reweighted += books.energy_reweighted;
   removed_kinetic_energy += books.removed_energy;
   removed_mass += books.removed_mass;
   removed_points += books.removed;
@@ -27,11 +28,14 @@ auto Ledger<Dim>::balance() -> const std::array<Term, terms>& {
   static constexpr std::array<Term, terms> list = {{
       {"work_gravity", &L::work_gravity, &B::work_gravity, 1},
       {"work_stress", &L::work_stress, &B::work_stress, -1},
-      {"work_release", &L::work_release, &B::work_release, 1, false},
+      {"work_release", &L::work_release, &B::work_release, 1, Use::release},
+      {"work_boundary", &L::work_boundary, &B::work_boundary, 1, Use::absorbing},
       {"dissipation_damping", &L::dissipation_damping, &B::dissipation_damping, -1},
       {"dissipation_friction", &L::dissipation_friction, &B::dissipation_friction, -1},
       {"dissipation_pic", &L::dissipation_pic, &B::dissipation_pic, -1},
       {"dissipation_waves", &L::dissipation_waves, &B::dissipation_waves, -1},
+      {"dissipation_absorbing", &L::dissipation_absorbing, &B::dissipation_absorbing, -1, Use::absorbing},
+      {"stored_sides", &L::stored_sides, &B::stored_sides, -1, Use::absorbing},
   }};
   return list;
 }

@@ -24,8 +24,16 @@ namespace fs = std::filesystem;
 /// Has this case use for a term of the balance of energy?
 template <int Dim>
 bool is_used(const typename Ledger<Dim>::Term& term, const input::CaseOf<Dim>& input) {
-  return term.always ||
-         std::any_of(input.stages.begin(), input.stages.end(), [](const auto& stage) { return stage.release > 0; });
+  using Use = typename Ledger<Dim>::Use;
+  const auto any = [](const auto& items, auto&& has) { return std::any_of(items.begin(), items.end(), has); };
+  switch (term.use) {
+    case Use::release:
+      return any(input.stages, [](const auto& stage) { return stage.release > 0; });
+    case Use::absorbing:
+      return any(input.boundaries, [](const auto& boundary) { return boundary.absorbing.has_value(); });
+    default:
+      return true;
+  }
 }
 
 template <int Dim>
@@ -36,9 +44,10 @@ std::vector<std::string> history_columns(const input::CaseOf<Dim>& input) {
   for (const auto& term : Ledger<Dim>::balance()) {
     if (is_used<Dim>(term, input)) columns.emplace_back(term.key);
   }
-  const std::initializer_list<const char*> rest = {"energy_removed", "energy_error", "max_velocity", "unbalanced_ratio",
-                                                   "substeps_mean",  "substeps_max", "failures",     "corrected",
-                                                   "separated",      "on_floor",     "no_stiffness", "removed_points"};
+  const std::initializer_list<const char*> rest = {
+      "energy_removed", "energy_error", "energy_reweighted", "max_velocity", "unbalanced_ratio",
+      "substeps_mean",  "substeps_max", "failures",          "corrected",    "separated",
+      "on_floor",       "no_stiffness", "removed_points"};
   columns.insert(columns.end(), rest.begin(), rest.end());
   return columns;
 }
@@ -163,6 +172,7 @@ void Results<Dim>::history(int stage, int points, const Ledger<Dim>& l) {
   }
   const std::initializer_list<double> rest = {l.removed_kinetic_energy,
                                               l.energy_error(),
+                                              l.energy_reweighted,
                                               l.last.max_velocity,
                                               l.unbalanced_ratio(),
                                               points > 0 ? static_cast<double>(stress.substeps) / points : 0.0,

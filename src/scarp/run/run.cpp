@@ -13,6 +13,7 @@
 #include "scarp/exec/parallel.hpp"
 #include "scarp/run/advice.hpp"
 #include "scarp/run/build.hpp"
+#include "scarp/run/lengths.hpp"
 #include "scarp/run/rest_watch.hpp"
 #include "scarp/run/results.hpp"
 #include "scarp/run/scheme.hpp"
@@ -66,6 +67,7 @@ void print_profile(const Ledger<Dim>& ledger) {
   if (!(total > 0)) return;
   fmt::print("phase of the step                      share   ns per point and step\n");
   for (int i = 0; i < phases; ++i) {
+    if (ledger.seconds[i] == 0) continue;  // no part of these steps
     fmt::print("{:36} {:6.1f} %  {:8.1f}\n", phase_names[i], 100 * ledger.seconds[i] / total,
                1e9 * ledger.seconds[i] / static_cast<double>(ledger.point_steps));
   }
@@ -84,6 +86,7 @@ Outcome run_in(const input::CaseOf<Dim>& input, const Options& options) {
   Body<Dim> body = build_body(input);
   warn_of_ignored_flip(input);
   warn_of_sparse_points(input, body);
+  for (const auto& warning : short_lengths(input, body)) logging::warn(warning);
   Ledger<Dim> ledger = open_ledger(body);
   Results<Dim> results(input, options.out, body);
 
@@ -148,6 +151,7 @@ std::string check_in(const input::CaseOf<Dim>& input) {
     text += fmt::format("    region \"{}\": {} points, {} {:.6g} {}{}, mass {:.6g}{}\n", block.name, block.size(),
                         area ? "area" : "volume", volume, area ? "m2" : "m3", area ? "" : share, mass, share);
   }
+  for (const auto& warning : short_lengths(input, body)) text += fmt::format("  warning: {}\n", warning);
   const double critical = critical_time_step(body, scheme_of(input.method));
   const double dt = input.method.safety * critical;
   text += fmt::format("  time step: {:.3g} s at the start (critical {:.3g} s, safety {:g})\n", dt, critical,

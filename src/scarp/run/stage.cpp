@@ -8,6 +8,7 @@
 
 #include "scarp/base/error.hpp"
 #include "scarp/base/log.hpp"
+#include "scarp/run/build.hpp"
 #include "scarp/run/removal.hpp"
 #include "scarp/run/rest_watch.hpp"
 #include "scarp/run/scheme.hpp"
@@ -214,9 +215,10 @@ void run_stage(Context<Dim>& context, int index, StageRecord& record) {
                               {input.method.tolerance, 1e-5},
                               input.method.remove_leaving,
                               profile};
+  open_sides(body, input, settings, index);
   LettingGo<Dim> imbalance(stage.release, ledger.time, body);
   Clock frames(ledger.time, input.output.every), rows(ledger.time, input.output.history);
-  double critical = critical_time_step(body, settings.scheme);
+  double critical = critical_time_step(body, settings.scheme, settings.damping);
   bool resting = false, first = true, energy_said = energy.largest_ratio() > EnergyCheck::worth_a_warning;
 
   while (ledger.time < end && !resting && !interrupted()) {

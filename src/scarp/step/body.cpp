@@ -59,6 +59,9 @@ void make_room(Body<Dim>& body) {
   buffers.inside.reserve(elements);
   buffers.weight.reserve(elements);
   buffers.mean_dilatation.reserve(elements);
+  buffers.left.reserve(elements);
+  buffers.changed.reserve(body.mesh->types.size());
+  buffers.is_changed.assign(body.mesh->types.size(), 0);
   buffers.shift.reserve(elements * buffers.shift_row);
   if (body.mesh->axisymmetric) buffers.hoop_shift.reserve(elements * padded);
   buffers.mass_matrix.reserve(elements * mass_matrix_row(body.assembly.row()));
@@ -156,6 +159,7 @@ void rebuild(Body<Dim>& body) {
   }
   buffers.weight.assign(slots, 1.0);
   buffers.mean_dilatation.assign(slots, 0);
+  buffers.left.assign(slots, 0);
   buffers.shift.resize(slots * buffers.shift_row);
   if (body.mesh->axisymmetric) buffers.hoop_shift.resize(slots * padded_row(body.assembly.row()));
   buffers.mass_matrix.resize(slots * mass_matrix_row(body.assembly.row()));

@@ -11,7 +11,9 @@
 #include "scarp/mesh/mesh.hpp"
 #include "scarp/points/points.hpp"
 #include "scarp/step/books.hpp"
+#include "scarp/step/nonlocal.hpp"
 #include "scarp/step/release.hpp"
+#include "scarp/step/sides.hpp"
 #include "scarp/transfer/transfer.hpp"
 
 namespace scarp {
@@ -30,6 +32,7 @@ template <int Dim>
 struct Resistance {
   Vec<Dim> F_damping{};   ///< local damping
   Vec<Dim> F_friction{};  ///< of a wall
+  Vec<Dim> F_dashpot{};   ///< of an absorbing side
 };
 
 /// Buffers of a step.
@@ -40,6 +43,7 @@ struct Buffers {
   Column weight;                     ///< w of its quadrature
   Column shift;                      ///< transfer::Shift of its quadrature, as stored: shift_row numbers
   std::size_t shift_row = 0;
+  std::vector<std::uint8_t> left;             ///< has a point left it in this step?
   std::vector<std::uint8_t> mean_dilatation;  ///< is the volume strain of its points their mean?
   Column hoop_shift;                          ///< the same of N_i / r, in a body of revolution
   Column mass_matrix;                         ///< M_ij, where elements keep it
@@ -54,6 +58,9 @@ struct Buffers {
   std::vector<Resistance<Dim>> resistance;  ///< with damping, and where nodes are not free
   std::vector<Strains<Dim>> strains;        ///< of each thread
   std::vector<StepBooks<Dim>> books;        ///< of each chunk
+  // Elements whose quadrature changes with the points that do (reweighted.hpp), and which of all these are.
+  std::vector<int> changed;
+  std::vector<std::uint8_t> is_changed;
 };
 
 /// Soil on its background mesh. The mesh is held by pointer, so that it stays where the locator saw it.
@@ -66,6 +73,7 @@ struct Body {
   Conditions<Dim> conditions;
   Vec<Dim> gravity;
   Release<Dim> release;
+  Sides<Dim> sides;
   std::vector<Block<Dim>> blocks;
 
   ActiveElements active;
@@ -73,6 +81,7 @@ struct Body {
   double least_mass = 0;  ///< a node with less only has points on the far edges of its elements, and is left out
   std::int64_t out_of_place = 0;  ///< points that changed element since their arrays were last put in order
   Buffers<Dim> buffers;
+  Averages<Dim> averages;  ///< of soil that softens over a length
 
   int point_count() const;
 };

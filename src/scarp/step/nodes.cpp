@@ -31,7 +31,7 @@ std::array<double, n> gathered(const Body<Dim>& body, int k, const Column& numbe
 /// Does anything resist the motion of a node?
 template <int Dim>
 bool is_resisted(const Body<Dim>& body, int n, double damping) {
-  return damping != 0 || !is_free(body.conditions, n);
+  return damping != 0 || !is_free(body.conditions, n) || body.sides.holds(n);
 }
 
 /// Local damping of the force F against the motion, and the conditions: changes a = F / m, notes what is held and the
@@ -52,6 +52,7 @@ template <int Dim>
     }
     a[j] = (F[j] + resistance.F_damping[j]) * node.per_mass;
   }
+  if (body.sides.holds(n)) body.sides.damp(n, node.m, node.v, dt, a, resistance.F_dashpot);
   if (!is_free(body.conditions, n)) {
     const auto reaction = constrain_acceleration<Dim>(body.conditions, settings.scheme.wall, n, node.m, node.v, dt, a);
     node.held = reaction.held;
@@ -66,7 +67,7 @@ template <int Dim>
 /// Books the work of forces on node n that are no part of the body's own, in some of its components, on the path that
 /// these make.
 template <int Dim>
-void book_work(const Body<Dim>& body, int n, const StepSettings& settings, unsigned components, const Vec<Dim>& path,
+void book_work(Body<Dim>& body, int n, const StepSettings& settings, unsigned components, const Vec<Dim>& path,
                StepBooks<Dim>& books) {
   const Node<Dim>& node = body.buffers.node[n];
   if (is_resisted(body, n, settings.damping)) [[unlikely]] {
@@ -77,10 +78,15 @@ void book_work(const Body<Dim>& body, int n, const StepSettings& settings, unsig
       books.dissipation_friction -= resistance.F_friction[j] * path[j];
     }
   }
-  if (body.release.active()) [[unlikely]] {
-    const unsigned set = set_components(body.conditions, settings.scheme.wall, n, node.held);
-    books.work_release += work_of<Dim>(body.release, n, node.m, set | ~components, path);
-  }
+  if (!body.release.active() && !body.sides.active()) [[likely]]
+    return;
+  const unsigned set = set_components(body.conditions, settings.scheme.wall, n, node.held) | ~components;
+  if (body.release.active()) books.work_release += work_of<Dim>(body.release, n, node.m, set, path);
+  if (!body.sides.holds(n)) return;
+  const auto work = body.sides.move(n, node.m, set, body.buffers.resistance[n].F_dashpot, path);
+  books.work_boundary += work.held;
+  books.dissipation_absorbing += work.dashpot;
+  books.stored_sides += work.spring;
 }
 constexpr unsigned all_components = ~0u;
 
@@ -117,6 +123,7 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
   for (int j = 0; j < Dim; ++j) {
     node.v[j] = p[j] * per_mass;
     F[j] = m * body.gravity[j] - F_int[j];
+    if (body.sides.holds(n)) F[j] += body.sides.force(n, j, m);
     if (body.release.active()) F[j] += body.release.force(n, j, m);
     a[j] = F[j] * per_mass;
   }

@@ -37,6 +37,7 @@ void hold_imbalance(Body<Dim>& body, const StepSettings& settings) {
   constexpr int numbers = transfer::node_sums<Dim>;
   StepBooks<Dim> books;
   prepare_threads(body);
+  step::prepare_columns(body, settings.scheme);
   step::map_points_to_elements(body, settings, books);
   auto& release = body.release;
   release.imbalance.assign(body.mesh->node_count(), {});
@@ -49,7 +50,10 @@ void hold_imbalance(Body<Dim>& body, const StepSettings& settings) {
     if (sum[0] < body.least_mass) continue;
     const int n = body.assembly.node(k);
     Vec<Dim>& F = release.imbalance[n];
-    for (int j = 0; j < Dim; ++j) F[j] = sum[0] * body.gravity[j] - sum[1 + Dim + j];
+    for (int j = 0; j < Dim; ++j) {
+      F[j] = sum[0] * body.gravity[j] - sum[1 + Dim + j];
+      if (body.sides.holds(n)) F[j] += body.sides.force(n, j, sum[0]);
+    }
     take_reaction<Dim>(body.conditions, n, F);
     for (double& component : F) component /= sum[0];
     release.mass[n] = sum[0];

@@ -10,6 +10,7 @@
 #include "scarp/exec/arrange.hpp"
 #include "scarp/exec/parallel.hpp"
 #include "scarp/step/phases.hpp"
+#include "scarp/step/reweighted.hpp"
 
 namespace scarp {
 namespace {
@@ -48,6 +49,8 @@ template <int Dim>
 template <int Dim>
 void order_points(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books) {
   if (books.changed_element == 0) return;
+  step::find_changed_elements(body);
+  const double stored = step::energy_of_changed_elements(body, settings);
   if (books.left_mesh > 0) {
     for (auto& block : body.blocks) {
       const auto& element = block.points.element;
@@ -59,6 +62,7 @@ void order_points(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>&
     book_motion(body, books);
   }
   reorder(body);
+  books.energy_reweighted = step::energy_of_changed_elements(body, settings) - stored;
   // Sweeps by element reach out of order for these points; a tenth of them is where putting all in order again pays.
   body.out_of_place += books.changed_element;
   if (10 * body.out_of_place > body.point_count()) {
@@ -96,29 +100,6 @@ void book_motion(const Body<Dim>& body, StepBooks<Dim>& books) {
   books.max_velocity = total.max_velocity;
 }
 
-namespace {
-
-/// The columns that only some schemes have: σ*, which starts as the stress it is, and C_p, as nothing.
-template <int Dim>
-void prepare_columns(Body<Dim>& body, const Scheme& scheme) {
-  for (auto& block : body.blocks) {
-    auto& points = block.points;
-    const bool ahead = scheme::waves(scheme, is_elastic(block.model)).damped();
-    for (int c = 0; c < sym_size<Dim>; ++c) {
-      const bool works = Dim == 3 || c != 2 || body.mesh->axisymmetric;  // σ_zz does no work in plane strain
-      auto& column = points.sigma_ahead[c];
-      if (ahead && works && column.empty()) column = points.sigma[c];
-      if (!ahead && !column.empty()) column = {};
-    }
-    for (auto& column : points.C) {
-      if (scheme.affine && column.empty()) column.resize(points.mass.size(), 0.0);
-      if (!scheme.affine && !column.empty()) column = {};
-    }
-  }
-}
-
-}  // namespace
-
 /// Steps 4 and 5 ask for the points' velocities (eq. 6, with a PIC share 1 − φ) only to form momentum of them again
 /// (eq. 7). Both are linear: with c_j the change of velocity at the nodes (scheme.hpp)
 ///     v_p^{t+dt} = φ v_p + Σ_j c_j N_j,
@@ -134,7 +115,7 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
   };
   const Scheme& scheme = settings.scheme;
   prepare_threads(body);
-  prepare_columns(body, scheme);
+  step::prepare_columns(body, scheme);
   timed(Phase::points_to_nodes, [&] { step::map_points_to_elements(body, settings, books); });  // 1, eqs 1–4
   timed(Phase::nodes, [&] { step::accelerate_nodes(body, dt, settings, books); });              // 2 and 3, eq. 5
   if (scheme.two_terms) {
@@ -149,23 +130,24 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
   }
   step::strain_stress_and_motion(body, dt, settings, books);          // 4, 6 to 11, eqs 6, 9–19 and section 3
   timed(Phase::order, [&] { order_points(body, settings, books); });  // 11
+  if (step::softens_over_length(body)) timed(Phase::averages, [&] { step::average_softening(body, dt); });
   return books;
 }
 
 template <int Dim>
-double critical_time_step(const Body<Dim>& body, const Scheme& scheme) {
+double critical_time_step(const Body<Dim>& body, const Scheme& scheme, double local_damping) {
   double dt = std::numeric_limits<double>::infinity();
   for (const auto& block : body.blocks) {
     dt = std::min(dt, exec::critical_time_step(block, body.mesh->size, body.active, body.buffers.weight,
-                                               scheme::waves(scheme, is_elastic(block.model))));
+                                               scheme::waves(scheme, is_elastic(block.model), local_damping)));
   }
   return dt;
 }
 
 template StepBooks<2> advance<2>(Body<2>&, double, const StepSettings&);
 template StepBooks<3> advance<3>(Body<3>&, double, const StepSettings&);
-template double critical_time_step<2>(const Body<2>&, const Scheme&);
-template double critical_time_step<3>(const Body<3>&, const Scheme&);
+template double critical_time_step<2>(const Body<2>&, const Scheme&, double);
+template double critical_time_step<3>(const Body<3>&, const Scheme&, double);
 template void book_motion<2>(const Body<2>&, StepBooks<2>&);
 template void book_motion<3>(const Body<3>&, StepBooks<3>&);
 

@@ -36,6 +36,19 @@ TEST(BadCase, UnknownKeys) {
   });
 }
 
+TEST(BadCase, LengthsWithoutSofteningOverThem) {
+  expect_all_refused({
+      {"density = 1.8", "density = 1.8\n@length = -0.5", "length", "-0.5", ""},
+      {"density = 1.8", "density = 1.8\n@length = \"long\"", "length is a number", "the text \"long\"",
+       "without quotes"},
+      {"density = 1.8", "density = 1.8\n@length = [0.5]", "length is a number", "a list", ""},
+      {"density = 1.8", "density = 1.8\n@lenght = 0.5", "no constant lenght", "0.5", "scarp models"},
+      {"density = 2.2", "density = 2.2\n@length = 1.5", "linear-elastic has no softening", "length = 1.5",
+       "leave length out"},
+      {"c_b = 20.0", "c_b = 0.0\n@length = 1.5", "these constants leave nothing to", "length = 1.5", "c_b > 0"},
+  });
+}
+
 TEST(BadCase, WrongTypes) {
   expect_all_refused({
       {"title = \"two columns\"", "@title = 3", "title is a text", "the number 3", "write it in quotes"},
@@ -113,6 +126,19 @@ TEST(BadCase, MissingKeys) {
       {"duration = 1.5\n", "", "[[stage]] lacks the key duration", "", "add the time", cut},
       {"{ polygon = [[0.5, 0.5], [1.0, 0.5], [1.0, 2.0]] }", "@{ lifts = 2 }", "remove lacks the key polygon", "",
        "corners"},
+  });
+}
+
+TEST(BadCase, AbsorbingSides) {
+  const std::string left = "friction = 0.3";  // of the minimal case's second boundary
+  expect_all_refused({
+      {left, "@absorbing = false", "absorbing is true", "false", "write absorbing = true"},
+      {left, "absorbing = true", "from", "", "name of the stage", "[[boundary]]\nline"},
+      {left, "friction = 0.3\n@absorbing = true\nfrom = \"cut\"", "no wall with friction", "both", "leave one"},
+      {left, "absorbing = true\n@from = \"shake\"", "no stage has this name", "\"shake\"", "[[stage]]"},
+      {left, "absorbing = true\n@from = \"rest\"", "fixed for a stage before", "the first stage", "a stage with rest"},
+      {left, "absorbing = true\nfrom = \"cut\"\n@thickness = -1", "0 <= thickness", "-1", "within these bounds"},
+      {left, "absorbing = true\nfrom = \"cut\"\n@impedance = [1.0, 0.0]", "above zero", "", "density times"},
   });
 }
 

@@ -31,6 +31,9 @@ TEST(GoodCase, Materials) {
   EXPECT_EQ(c.materials[1].density, 1.8);
   EXPECT_TRUE(std::holds_alternative<Subloading>(c.materials[1].model));
   EXPECT_EQ(c.materials[1].position.line, 17);
+  EXPECT_EQ(c.materials[1].length, 0.0);
+  EXPECT_EQ(read(replaced(minimal, "density = 1.8", "density = 1.8\nlength = 0.75")).materials[1].length, 0.75);
+  EXPECT_EQ(read(replaced(minimal, "density = 2.2", "density = 2.2\nlength = 0.0")).materials[0].length, 0.0);
 }
 
 TEST(GoodCase, Regions) {
@@ -106,6 +109,18 @@ TEST(GoodCase, ShapeFunctions) {
   EXPECT_EQ(shape("b-spline"), GridFunctions::b_spline);
 }
 
+TEST(GoodCase, AbsorbingSide) {
+  const auto its = [](const std::string& more) {
+    return *read(replaced(minimal, "friction = 0.3", "absorbing = true\nfrom = \"cut\"" + more))
+                .boundaries[1]
+                .absorbing;
+  };
+  EXPECT_EQ(its("").from, "cut");
+  EXPECT_FALSE(its("").thickness || its("").impedance);
+  EXPECT_EQ(its("\nthickness = 40").thickness, 40.0);
+  EXPECT_EQ(its("\nimpedance = [600, 300]").impedance, (std::array<double, 2>{600, 300}));
+}
+
 // The keys that the minimal case leaves out.
 TEST(GoodCase, OptionalKeys) {
   std::string text =
@@ -115,7 +130,8 @@ TEST(GoodCase, OptionalKeys) {
   text = replaced(text, "spacing = 0.25", "spacing = 0.25\nvelocity = [1.0, -2.0]");
   text = replaced(text, "K0 = 0.6", "K0 = \"model\"");
   text = replaced(text, "hold = 0.1", "hold = 0.1, kinetic = 1e-5, rate = 1e-4, required = false");
-  text = replaced(text, "duration = 1.5", "duration = 1.5\nrelease = 1.5\nflip = 0.5\nzero_displacement = true\nzero_velocity = true");
+  text = replaced(text, "duration = 1.5",
+                  "duration = 1.5\nrelease = 1.5\nflip = 0.5\nzero_displacement = true\nzero_velocity = true");
   text = replaced(text, "[1.0, 2.0]] }", "[1.0, 2.0]], lifts = 3, over = 1.5 }");
   text = replaced(text, "every = 0.25", "every = 0.25\nhistory = 0.1\ncolour = \"R_b\"");
   const Case c = read(text);

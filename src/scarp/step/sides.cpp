@@ -1,0 +1,258 @@
+#include "scarp/step/sides.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "scarp/base/error.hpp"
+#include "scarp/exec/stress_update.hpp"
+#include "scarp/mesh/build.hpp"
+#include "scarp/mesh/shapes.hpp"
+#include "scarp/step/phases.hpp"
+#include "scarp/transfer/transfer.hpp"
+
+namespace scarp {
+namespace {
+
+/// A face of an element on the side.
+template <int Dim>
+struct Face {
+  std::vector<int> nodes;
+  int element, axis;  ///< the axis that it lies across
+};
+
+/// The axis across which the nodes lie, or -1.
+template <int Dim>
+int axis_of(const Mesh<Dim>& mesh, const std::vector<int>& nodes, double tolerance) {
+  for (int j = 0; j < Dim; ++j) {
+    bool flat = true;
+    for (const int n : nodes) flat = flat && std::abs(mesh.nodes[n][j] - mesh.nodes[nodes[0]][j]) <= tolerance;
+    if (flat) return j;
+  }
+  return -1;
+}
+
+/// The faces of elements all of whose nodes are chosen.
+template <int Dim>
+std::vector<Face<Dim>> faces_on(const Mesh<Dim>& mesh, const std::vector<int>& nodes) {
+  std::vector<char> chosen(mesh.nodes.size(), 0), on_face(mesh.nodes.size(), 0);
+  for (const int n : nodes) chosen[n] = 1;
+  std::map<std::vector<int>, int> times;  // that a face is met, by its nodes in order
+  std::vector<Face<Dim>> faces;
+  for (int e = 0; e < mesh.element_count(); ++e) {
+    with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
+      for (const auto& side : Shape::sides) {
+        std::vector<int> its;
+        for (const int i : side) its.push_back(mesh.element_nodes(e)[i]);
+        if (!std::all_of(its.begin(), its.end(), [&](int n) { return chosen[n] != 0; })) continue;
+        faces.push_back({its, e, axis_of<Dim>(mesh, its, 1e-9 * mesh.size[e])});
+        std::sort(its.begin(), its.end());
+        ++times[its];
+        for (const int n : its) on_face[n] = 1;
+      }
+    });
+  }
+  for (const int n : nodes) {
+    bool good = on_face[n] != 0;
+    for (const auto& face : faces) {
+      if (std::find(face.nodes.begin(), face.nodes.end(), n) == face.nodes.end()) continue;
+      auto sorted = face.nodes;
+      std::sort(sorted.begin(), sorted.end());
+      good = good && face.axis >= 0 && times[sorted] == 1;
+    }
+    if (good) continue;
+    throw InputError("an absorbing side lies on flat sides of the mesh, each across an axis",
+                     fmt::format("the node at ({:g})", fmt::join(mesh.nodes[n], ", ")),
+                     "name a side such as nodes = \"left\", or leave absorbing out");
+  }
+  return faces;
+}
+
+/// What the points of an element are together.
+struct Content {
+  double Omega = 0, mass = 0, M = 0, G = 0;  ///< moduli times Ω
+  bool known = true;                         ///< are the moduli?
+};
+
+template <int Dim>
+std::vector<Content> contents(const Body<Dim>& body) {
+  std::vector<Content> of_element(body.mesh->types.size());
+  for (const auto& block : body.blocks) {
+    const auto& points = block.points;
+    for (int i = 0; i < block.size(); ++i) {
+      auto& its = of_element[points.element[i]];
+      its.Omega += points.volume[i];
+      its.mass += points.mass[i];
+      exec::with_state(block, i, [&](const auto& model, const auto& state) {
+        const double M = model.p_wave_modulus(state);
+        its.M += points.volume[i] * M;
+        if constexpr (requires { model.parameters().nu; }) {
+          const double nu = model.parameters().nu;
+          its.G += points.volume[i] * M * (0.5 - nu) / (1 - nu);  // of isotropic elasticity
+        } else {
+          its.known = false;
+        }
+      });
+    }
+  }
+  return of_element;
+}
+
+/// Volume of an element; per radian in a body of revolution.
+template <int Dim>
+double volume_of(const Mesh<Dim>& mesh, int e) {
+  if constexpr (Dim == 3) {
+    return element_volume(mesh, e);
+  } else {
+    if (!mesh.axisymmetric) return element_area(mesh, e);
+    // r at the centroid of the triangles that the element is made of, exactly.
+    const auto n = mesh.element_nodes(e);
+    double volume = 0;
+    for (std::size_t i = 1; i + 1 < n.size(); ++i) {
+      const auto &a = mesh.nodes[n[0]], &b = mesh.nodes[n[i]], &c = mesh.nodes[n[i + 1]];
+      volume += 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) * (a[0] + b[0] + c[0]) / 3;
+    }
+    return volume;
+  }
+}
+
+/// The part of a face's area that is its node i's: an equal one, of a triangle's edge in a body of revolution that of
+/// ∫ N_i r.
+template <int Dim>
+double node_area(const Mesh<Dim>& mesh, const std::vector<int>& nodes, std::size_t i) {
+  const auto& a = mesh.nodes[nodes[0]];
+  const auto& b = mesh.nodes[nodes[1]];
+  if constexpr (Dim == 2) {
+    const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+    const double r = mesh.axisymmetric ? (a[0] + b[0] + mesh.nodes[nodes[i]][0]) / 3 : 1.0;
+    return 0.5 * length * r;
+  } else {
+    double area = 0;
+    for (std::size_t k = 1; k + 1 < nodes.size(); ++k) {
+      const auto &p = mesh.nodes[nodes[k]], &q = mesh.nodes[nodes[k + 1]];
+      Vec<3> cross;
+      for (int j = 0; j < 3; ++j) {
+        const int s = (j + 1) % 3, t = (j + 2) % 3;
+        cross[j] = (p[s] - a[s]) * (q[t] - a[t]) - (p[t] - a[t]) * (q[s] - a[s]);
+      }
+      area += 0.5 * std::sqrt(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]);
+    }
+    return area / static_cast<double>(nodes.size());
+  }
+}
+
+/// The longest side of the box around all points [m].
+template <int Dim>
+double larger_side(const Body<Dim>& body) {
+  double longest = 0;
+  for (int j = 0; j < Dim; ++j) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const auto& block : body.blocks) {
+      for (const double x : block.points.x[j]) {
+        low = std::min(low, x);
+        high = std::max(high, x);
+      }
+    }
+    longest = std::max(longest, high - low);
+  }
+  return longest;
+}
+
+template <int Dim>
+void check_thickness(const Mesh<Dim>& mesh, const std::vector<Face<Dim>>& faces, double thickness) {
+  double h = 0;
+  for (const auto& face : faces) h = std::max(h, mesh.size[face.element]);
+  if (thickness == 0 || thickness >= 5 * h) return;
+  throw InputError(
+      "the soil beyond an absorbing side is at least five elements thick, or its spring would be too stiff",
+      fmt::format("thickness = {:g} beside elements of {:.3g}", thickness, h),
+      "enlarge thickness, or give 0 for no spring");
+}
+
+}  // namespace
+
+template <int Dim>
+Sides<Dim> soil_beyond(const Body<Dim>& body, const AbsorbingSide& side) {
+  const auto& mesh = *body.mesh;
+  if (mesh.grid && mesh.grid->functions != GridFunctions::linear)
+    throw InputError("absorbing sides are there for linear shape functions only", "GIMP or B-splines",
+                     "choose shape = \"linear\" in [method]");
+  const auto faces = faces_on(mesh, side.nodes);
+  const double thickness = side.thickness.value_or(larger_side(body));
+  check_thickness(mesh, faces, thickness);
+  const auto content = contents(body);
+  Sides<Dim> sides;
+  sides.of_node.assign(mesh.nodes.size(), -1);
+  for (const auto& face : faces) {
+    const auto& its = content[face.element];
+    if (!(its.Omega > 0)) continue;
+    if (!its.known && !side.impedance)
+      throw InputError("the law of the soil at an absorbing side does not tell its shear modulus", "no impedance",
+                       "give impedance = [Z_p, Z_s] of the soil beyond, density times wave speed");
+    const double rho = its.mass / its.Omega;
+    const double Z_p = side.impedance ? (*side.impedance)[0] : std::sqrt(rho * its.M / its.Omega);
+    const double Z_s = side.impedance ? (*side.impedance)[1] : std::sqrt(rho * its.G / its.Omega);
+    const double fill = std::min(1.0, its.Omega / volume_of(mesh, face.element));
+    for (std::size_t i = 0; i < face.nodes.size(); ++i) {
+      int& place = sides.of_node[face.nodes[i]];
+      if (place < 0) {
+        place = static_cast<int>(sides.node.size());
+        sides.node.emplace_back();
+      }
+      auto& node = sides.node[place];
+      const double area = fill * node_area(mesh, face.nodes, i);
+      for (int j = 0; j < Dim; ++j) {
+        const double Z = j == face.axis ? Z_p : Z_s;
+        node.C[j] += Z * area;
+        if (thickness > 0) node.k[j] += Z * Z / rho * area / thickness;
+      }
+    }
+  }
+  return sides;
+}
+
+template <int Dim>
+void open_side(Body<Dim>& body, const StepSettings& settings, const AbsorbingSide& side,
+               const Conditions<Dim>& others) {
+  constexpr int numbers = transfer::node_sums<Dim>;
+  const auto beyond = soil_beyond(body, side);
+  StepBooks<Dim> books;
+  prepare_threads(body);
+  step::prepare_columns(body, settings.scheme);
+  step::map_points_to_elements(body, settings, books);
+  auto& sides = body.sides;
+  if (!sides.active()) sides.of_node.assign(body.mesh->nodes.size(), -1);
+  for (int k = 0; k < body.assembly.size(); ++k) {
+    const int n = body.assembly.node(k);
+    if (!beyond.holds(n)) continue;
+    std::array<double, numbers> sum{};  // m, p, F_int
+    body.assembly.gather(k, [&](int place) {
+      for (int q = 0; q < numbers; ++q) sum[q] += body.buffers.sums[static_cast<std::size_t>(place) * numbers + q];
+    });
+    if (sum[0] < body.least_mass) continue;
+    const bool fresh = sides.of_node[n] < 0;
+    if (fresh) {
+      sides.of_node[n] = static_cast<int>(sides.node.size());
+      sides.node.emplace_back();
+    }
+    auto& node = sides.node[sides.of_node[n]];
+    const auto& its = beyond.node[beyond.of_node[n]];
+    node.mass = sum[0];
+    for (int j = 0; j < Dim; ++j) {
+      node.C[j] += its.C[j];
+      node.k[j] += its.k[j];
+      const bool let_go = (body.conditions.fixed[n] & ~others.fixed[n] & (1u << j)) != 0;
+      if (let_go) node.R[j] = sum[1 + Dim + j] - sum[0] * body.gravity[j];
+    }
+    body.conditions.fixed[n] &= others.fixed[n];
+  }
+}
+
+template Sides<2> soil_beyond<2>(const Body<2>&, const AbsorbingSide&);
+template Sides<3> soil_beyond<3>(const Body<3>&, const AbsorbingSide&);
+template void open_side<2>(Body<2>&, const StepSettings&, const AbsorbingSide&, const Conditions<2>&);
+template void open_side<3>(Body<3>&, const StepSettings&, const AbsorbingSide&, const Conditions<3>&);
+
+}  // namespace scarp
