@@ -160,7 +160,7 @@ increments = 3
 
 LAB_COLUMNS = (
     "stage,time,eps_xx,eps_yy,eps_zz,eps_xy,eps_yz,eps_zx,sig_xx,sig_yy,sig_zz,sig_xy,sig_yz,sig_zx,p,q,theta,eps_v,eps_q,u,"
-    "R,epsp_v,epsp_q,p_c,R_b,beta_xx,beta_yy,beta_zz,beta_xy,beta_yz,beta_zx,a_xx,a_yy,a_zz,a_xy,a_yz,a_zx,"
+    "R,epsp_v,epsp_q,p_c,R_b,gap,beta_xx,beta_yy,beta_zz,beta_xy,beta_yz,beta_zx,a_xx,a_yy,a_zz,a_xy,a_yz,a_zx,"
     "epsp_xx,epsp_yy,epsp_zz,epsp_xy,epsp_yz,epsp_zx,substeps")
 
 

@@ -90,7 +90,7 @@ void expect_accounts_in_order(const SlopeRun& slope) {
 }
 
 TEST(Slope, StandsAndFailsAfterTheCut) {
-  const auto slope = run_slope("cut", {"stage.1.duration=15.0"});
+  const auto slope = run_slope("cut", {"stage.1.duration=30.0"});
   expect_accounts_in_order(slope);
   const auto &rest = slope.summary["stages"][0], &cut = slope.summary["stages"][1];
   EXPECT_EQ(rest["ended"], "at rest");

@@ -174,10 +174,10 @@ class Constrained {
     return trial;
   }
 
-  /// The same for a law that advances by the pair that the integration chose.
+  /// The same for a law that advances by the pair that the integration chose. (One that has rates, too, goes by these.)
   template <class Pair>
-  Trial<State<double, 6>, double> update(const State<double, 6>& s, const Share& share, double tolerance) const requires
-      UpdatesByPair<Model, Pair, Soil, Increment<double, 6>> {
+  Trial<State<double, 6>, double> update(const State<double, 6>& s, const Share& share, double tolerance)
+      const requires HasUpdate<Model> && UpdatesByPair<Model, Pair, Soil, Increment<double, 6>> {
     return step<Pair>(s, share, tolerance);
   }
 

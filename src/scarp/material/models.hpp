@@ -41,7 +41,13 @@ ModelDescription description_of(const AnyModel& model);
 /// Is it the law of an elastic body, which a strain there and back leaves as it was? A law of which all constants give
 /// such a body says so by a member `elastic`.
 inline bool is_elastic(const AnyModel& model) {
-  return std::visit([]<class Model>(const Model&) { return requires { Model::elastic; }; }, model);
+  return std::visit(
+      []<class Model>(const Model&) {
+        return requires {
+          Model::elastic;
+        };
+      },
+      model);
 }
 
 /// The model called `name` with constants from `values`, and with settings where it has some. On a bad, unknown or

@@ -279,7 +279,17 @@ class Nonlocal<Law> {
   Law law_;
 };
 
-/// How many numbers Nonlocal<Law> keeps of a point beside those of the law. The last three of its state are κ, κ̂ and
+/// The place of κ among the columns of the state, counted from their end: before κ̂ and dκ̂/dt, and before the gap of a
+/// law that has κ of its own.
+template <class Law>
+constexpr int kappa_from_end(const Law&) {
+  return requires(typename Law::template State<double, 6> s) {
+    s.kappa, s.gap;
+  }
+  ? 4 : 3;
+}
+
+/// How many numbers Nonlocal<Law> keeps of a point beside those of the law. The last two of its state are κ̂ and
 /// dκ̂/dt in every law.
 template <class Law>
 constexpr int nonlocal_columns(const Law&) {

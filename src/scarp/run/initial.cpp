@@ -151,7 +151,10 @@ void set_initial_state(Block<Dim>& block, const input::RegionInputOf<Dim>& regio
         }
       },
       block.model);
-  if (block.length > 0) block.state.end()[-2] = block.state.end()[-3];  // κ̂ starts at κ
+  if (block.length > 0) {  // κ̂ starts at κ
+    const int kappa = std::visit([](const auto& law) { return kappa_from_end(law); }, block.model);
+    block.state.end()[-2] = block.state.end()[-kappa];
+  }
 }
 
 template void set_initial_state<2>(Block<2>&, const input::RegionInputOf<2>&, const OverburdenOf<2>&);

@@ -118,10 +118,10 @@ void for_each_chunk(Body<Dim>& body, F&& f) {
                         [&](int first, int last, StepBooks<Dim>&) { f(first, last); });
 }
 
-/// κ, κ̂ and dκ̂/dt of the points of a block.
+/// κ of the points of a block.
 template <int Dim>
 const Column& kappa_of(const Block<Dim>& block) {
-  return block.state[block.state.size() - 3];
+  return block.state.end()[-std::visit([](const auto& law) { return kappa_from_end(law); }, block.model)];
 }
 
 /// Where the local corner i of the element in a slot sums up.
