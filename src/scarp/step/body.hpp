@@ -54,7 +54,7 @@ struct Buffers {
   std::vector<Node<Dim>> node;
   std::vector<transfer::Motion<Dim>> motion;
   std::vector<Vec<Dim>> a_dt;               ///< a dt; where there is a PIC share
-  std::vector<Vec<Dim>> half_path;          ///< ½ P v^t dt: half of what forces work on; with a scheme of two terms
+  std::vector<Vec<Dim>> half_path;          ///< ½ P v^t dt: half of what forces work on; of what is held du; two terms
   std::vector<Resistance<Dim>> resistance;  ///< with damping, and where nodes are not free
   std::vector<Strains<Dim>> strains;        ///< of each thread
   std::vector<StepBooks<Dim>> books;        ///< of each chunk

@@ -231,6 +231,9 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
       for (int j = 0; j < Dim; ++j) {
         motion.du(j) = v[j] * dt;
         m_du[j] += node.m * motion.du(j);
+        if (!scheme.filters_motion() || !(node.held >> j & 1u)) continue;
+        body.buffers.half_path[n][j] = motion.du(j);  // kept for filter_displacements(): what holds a node is no
+        motion.du(j) = 0;                             // part of P, and what sticks to a wall still moves a little
       }
     });
     if (scheme.filters_motion()) return;
@@ -246,8 +249,10 @@ void filter_displacements(Body<Dim>& body, const StepSettings& settings, StepBoo
       auto& motion = body.buffers.motion[n];
       Vec<Dim> du, path;
       for (int j = 0; j < Dim; ++j) {
-        du[j] = scheme::filtered(motion.du(j), M_w[j], node.per_mass, (node.held >> j & 1u) != 0);
-        path[j] = body.buffers.half_path[n][j] + 0.5 * du[j];
+        const double kept = body.buffers.half_path[n][j];
+        const bool held = (node.held >> j & 1u) != 0;
+        du[j] = held ? kept : scheme::filtered(motion.du(j), M_w[j], node.per_mass, false);
+        path[j] = kept + 0.5 * du[j];
       }
       if (settings.scheme.two_terms) book_work<Dim>(body, n, settings, ~static_cast<unsigned>(node.held), path, part);
       if (is_resisted(body, n, settings.damping)) [[unlikely]]
