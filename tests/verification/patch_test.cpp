@@ -169,7 +169,7 @@ TEST(RigidRotation, TurnsStressBetaAndCentreWithTheBody) {
       }
       transfer::nodes_to_points<false, GridLinear<2>>(
           GridLinear<2>::Cell(*body.mesh, e), element, {}, block.points,
-          {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, 0, strains,
+          {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, strains,
           block.begin[slot], sums, [](const auto&...) {});
     }
     exec::StressBooks books;

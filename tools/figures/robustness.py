@@ -37,7 +37,7 @@ def draw_slope(plt, table):
     for axis, (key, says) in zip(axes, QUANTITIES.items()):
         for at, row in enumerate(mine):
             scheme = next((name for name in COLOURS if row["name"].startswith(name)), "two-term")
-            axis.plot(number(row[key]), at, "o", ms=4, color=COLOURS[scheme], mfc="none" if row["status"] != "done" else None)
+            axis.plot(number(row[key]), at, "o", ms=4, color=COLOURS[scheme], mfc=None if row["status"] == "done" else "none")
         axis.set_xlabel(says)
         axis.set_xlim(left=None if key == "crest" else 0)
     axes[0].set_yticks(range(len(mine)), [f"{row['study']}: {row['name']}" for row in mine])
@@ -75,8 +75,8 @@ def draw_frames(plt, out, chosen, path, limits, high, columns, spacing):
     lines = -(-len(chosen) // columns)
     (left, right), (low, top) = limits
     width = 11.5 / columns
-    figure, axes = plt.subplots(lines, columns, figsize=(13, lines * (width * (top - low) / (right - left) + 0.4)), squeeze=False,
-                                layout="constrained")
+    high_of_one = width * (top - low) / (right - left) + 0.4
+    figure, axes = plt.subplots(lines, columns, figsize=(13, lines * high_of_one), squeeze=False, layout="constrained")
     for axis in axes.flat[len(chosen):]:
         axis.set_visible(False)
     for axis, (title, one) in zip(axes.flat, chosen.items()):
@@ -126,10 +126,15 @@ def draw_column(plt, out, studies, table):
     for parts, style in ((10, "s"), (20, "o")):
         mine = [row for row in table if row["study"] == "column" and row["name"].endswith(f"L0/{parts}")]
         a = [float(row["name"].split()[2].rstrip(",")) for row in mine]
-        for axis, key, colour, says in ((axes[0], "toe", "C0", "98 % of the mass"), (axes[0], "furthest", "C1", "connected front"),
+        for axis, key, colour, says in ((axes[0], "toe", "C0", "98 % of the mass"),
+                                        (axes[0], "furthest", "C1", "connected front"),
                                         (axes[1], "height", "C0", "at the wall")):
             axis.plot(a, [number(row[key]) for row in mine], style, color=colour, mfc="none" if parts == 10 else None, ms=5,
                       label=f"{says}, h = L0/{parts}")
+    stronger = [row for row in table if row["study"] == "column" and row["name"].endswith("L0/20, 36.9°")]
+    a = [float(row["name"].split()[2].rstrip(",")) for row in stronger]
+    for axis, key, says in ((axes[0], "toe", "98 % of the mass"), (axes[1], "height", "at the wall")):
+        axis.plot(a, [number(row[key]) for row in stronger], "^", color="C2", ms=5, label=f"{says}, h = L0/20, φ = 36.9°")
     axes[0].set_yticks([0.5, 1, 2, 5, 10], ["0.5", "1", "2", "5", "10"])
     axes[1].set_yticks([0.5, 1, 1.5, 2], ["0.5", "1", "1.5", "2"])
     for axis, says in zip(axes, ("run-out (L∞ − L0)/L0", "height of the deposit H∞/L0")):
@@ -140,7 +145,8 @@ def draw_column(plt, out, studies, table):
         axis.legend()
     figure.tight_layout()
     figure.savefig(FIGURES / "robustness_column.png", dpi=110)
-    chosen = {one.name: one for one in studies["column"] if one.name.endswith(("/20", "/10"))}
+    found = sorted((one for one in studies["column"] if one.name.endswith(("/20", "/10"))), key=lambda one: one.place["a"])
+    chosen = {one.name: one for one in found}
     draw_frames(plt, out, chosen, FIGURES / "robustness_column_deposits.png", ((0, 10), (0, 1.6)), 8, 2,
                 lambda one: one.changes["region.column.spacing"])
 

@@ -247,7 +247,8 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
                                          body.buffers.weight[slot],
                                          body.mesh->size[e],
                                          nullptr,
-                                         body.buffers.mean_dilatation[slot] != 0};
+                                         body.buffers.mean_dilatation[slot] != 0,
+                                         0};
   if constexpr (is_axisymmetric<Basis>) {
     element.hoop_shift = body.buffers.hoop_shift.data() + slot * padded_row(body.assembly.row());
   }
@@ -257,13 +258,12 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
     const int* n = body.mesh->element_nodes(e).data();
     for (int i = 0; i < Basis::nodes; ++i) element.a_dt[i] = body.buffers.a_dt[n[i]].data();
   }
-  double mean = 0;
   if constexpr (transfer::has_shift<Basis>) {
-    if (element.mean_dilatation) mean = transfer::mean_dilation<Basis>(cell, element.motion);
+    if (element.mean_dilatation) element.mean_dilation = transfer::mean_dilation<Basis>(cell, element.motion);
   }
   const std::int64_t changed = books.changed_element;
   transfer::nodes_to_points<pic, Basis>(
-      cell, element, rules.motion, block.points, points_of(block, slot), mean, strains, at, motion.sums,
+      cell, element, rules.motion, block.points, points_of(block, slot), strains, at, motion.sums,
       [&](const auto& p, const auto& x, const auto& before) {
         const unsigned inside =
             still_inside<Basis>(cell, p, x, before, body.locator.tolerance(), block.points,
@@ -291,6 +291,24 @@ void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, co
 }
 
 }  // namespace
+
+template <int Dim>
+void prepare_columns(Body<Dim>& body, const Scheme& scheme) {
+  for (auto& block : body.blocks) {
+    auto& points = block.points;
+    const bool ahead = scheme::waves(scheme, is_elastic(block.model)).damped();
+    for (int c = 0; c < sym_size<Dim>; ++c) {
+      const bool works = Dim == 3 || c != 2 || body.mesh->axisymmetric;  // σ_zz does no work in plane strain
+      auto& column = points.sigma_ahead[c];
+      if (ahead && works && column.empty()) column = points.sigma[c];
+      if (!ahead && !column.empty()) column = {};
+    }
+    for (auto& column : points.C) {
+      if (scheme.affine && column.empty()) column.resize(points.mass.size(), 0.0);
+      if (!scheme.affine && !column.empty()) column = {};
+    }
+  }
+}
 
 template <int Dim>
 void map_points_to_elements(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books) {
@@ -342,6 +360,8 @@ void strain_stress_and_motion(Body<Dim>& body, double dt, const StepSettings& se
   books.dissipation_waves = books.stress.damping;
 }
 
+template void prepare_columns<2>(Body<2>&, const Scheme&);
+template void prepare_columns<3>(Body<3>&, const Scheme&);
 template void map_points_to_elements<2>(Body<2>&, const StepSettings&, StepBooks<2>&);
 template void map_points_to_elements<3>(Body<3>&, const StepSettings&, StepBooks<3>&);
 template void sum_with_mass_matrix<2>(Body<2>&, int, StepBooks<2>&);

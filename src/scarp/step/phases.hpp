@@ -5,6 +5,11 @@
 
 namespace scarp::step {
 
+/// Before step 1: the columns of the points that only some schemes have; σ* starts as the stress it is, and C_p as
+/// nothing.
+template <int Dim>
+void prepare_columns(Body<Dim>& body, const Scheme& scheme);
+
 /// Step 1: every element adds up mass, momentum and internal force for its own local nodes from its own points.
 template <int Dim>
 void map_points_to_elements(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books);

@@ -37,6 +37,7 @@ void hold_imbalance(Body<Dim>& body, const StepSettings& settings) {
   constexpr int numbers = transfer::node_sums<Dim>;
   StepBooks<Dim> books;
   prepare_threads(body);
+  step::prepare_columns(body, settings.scheme);
   step::map_points_to_elements(body, settings, books);
   auto& release = body.release;
   release.imbalance.assign(body.mesh->node_count(), {});

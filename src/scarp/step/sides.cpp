@@ -220,6 +220,7 @@ void open_side(Body<Dim>& body, const StepSettings& settings, const AbsorbingSid
   const auto beyond = soil_beyond(body, side);
   StepBooks<Dim> books;
   prepare_threads(body);
+  step::prepare_columns(body, settings.scheme);
   step::map_points_to_elements(body, settings, books);
   auto& sides = body.sides;
   if (!sides.active()) sides.of_node.assign(body.mesh->nodes.size(), -1);

@@ -100,29 +100,6 @@ void book_motion(const Body<Dim>& body, StepBooks<Dim>& books) {
   books.max_velocity = total.max_velocity;
 }
 
-namespace {
-
-/// The columns that only some schemes have: σ*, which starts as the stress it is, and C_p, as nothing.
-template <int Dim>
-void prepare_columns(Body<Dim>& body, const Scheme& scheme) {
-  for (auto& block : body.blocks) {
-    auto& points = block.points;
-    const bool ahead = scheme::waves(scheme, is_elastic(block.model)).damped();
-    for (int c = 0; c < sym_size<Dim>; ++c) {
-      const bool works = Dim == 3 || c != 2 || body.mesh->axisymmetric;  // σ_zz does no work in plane strain
-      auto& column = points.sigma_ahead[c];
-      if (ahead && works && column.empty()) column = points.sigma[c];
-      if (!ahead && !column.empty()) column = {};
-    }
-    for (auto& column : points.C) {
-      if (scheme.affine && column.empty()) column.resize(points.mass.size(), 0.0);
-      if (!scheme.affine && !column.empty()) column = {};
-    }
-  }
-}
-
-}  // namespace
-
 /// Steps 4 and 5 ask for the points' velocities (eq. 6, with a PIC share 1 − φ) only to form momentum of them again
 /// (eq. 7). Both are linear: with c_j the change of velocity at the nodes (scheme.hpp)
 ///     v_p^{t+dt} = φ v_p + Σ_j c_j N_j,
@@ -138,7 +115,7 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
   };
   const Scheme& scheme = settings.scheme;
   prepare_threads(body);
-  prepare_columns(body, scheme);
+  step::prepare_columns(body, scheme);
   timed(Phase::points_to_nodes, [&] { step::map_points_to_elements(body, settings, books); });  // 1, eqs 1–4
   timed(Phase::nodes, [&] { step::accelerate_nodes(body, dt, settings, books); });              // 2 and 3, eq. 5
   if (scheme.two_terms) {

@@ -114,7 +114,8 @@ struct ElementMotion {
   const double* shift;                 ///< Shift of its quadrature, as stored
   double weight, size;                 ///< w of its quadrature, and its least height
   const double* hoop_shift = nullptr;  ///< that of N_i / r, in a body of revolution
-  bool mean_dilatation = false;        ///< is the volume strain of its points their mean?
+  bool mean_dilatation = false;        ///< is the volume strain of its points their mean,
+  double mean_dilation = 0;            ///< this one?
 };
 
 /// How points are moved and strained.
@@ -184,7 +185,7 @@ inline double mean_dilation(const typename Basis::Cell& cell, const NodeRows<Bas
 /// moved(lanes, x, motion there before) for each batch.
 template <bool pic, class Basis, class F>
 inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotion<Basis>& element,
-                            const MotionRules& rules, Points<Basis::dim>& points, const PointRange& range, double mean,
+                            const MotionRules& rules, Points<Basis::dim>& points, const PointRange& range,
                             Strains<Basis::dim>& strains, int at, MotionSums<Basis::dim>& sums, F&& moved) {
   constexpr int Dim = Basis::dim;
   using T = PointBatch<Dim>;
@@ -225,7 +226,7 @@ inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotio
     sums.fastest2 = max(sums.fastest2, select(m > T(0.0), v2, T(0.0)));  // lanes without a point have any v
     if constexpr (has_shift<Basis>) {
       if (element.mean_dilatation) {
-        const T more = (T(mean) - g.trace()) * T(1.0 / mean_directions<Basis>);
+        const T more = (T(element.mean_dilation) - g.trace()) * T(1.0 / mean_directions<Basis>);
         repeat<Dim>([&](auto j) { g.L[j][j] += more; });
         if constexpr (is_axisymmetric<Basis>) g.hoop += more;
       }

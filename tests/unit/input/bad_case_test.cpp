@@ -36,6 +36,22 @@ TEST(BadCase, UnknownKeys) {
   });
 }
 
+TEST(BadCase, SchemesAndConstantsThatAreNotTheirs) {
+  expect_all_refused({
+      {"flip = 0.95", "@scheme = \"flip\"", "scheme is \"two-term\", \"report\" or", "\"flip\"", "leave it out"},
+      {"flip = 0.95", "@scheme = 2", "scheme is a text", "the number 2", "write it in quotes"},
+      {"flip = 0.95", "scheme = \"report\"\n@pic_time = 0.5", "pic_time belongs to scheme = \"two-term\"", "0.5",
+       "leave it out"},
+      {"flip = 0.95", "scheme = \"apic\"\n@pic_time = 0.5", "pic_time belongs to", "0.5", "leave it out"},
+      {"flip = 0.95", "scheme = \"report\"\n@stress_damping = 0.1", "stress_damping belongs to", "0.1", "leave it out"},
+      {"flip = 0.95", "stress_damping = 0.1\n@stress_damping_time = 0.01", "by stress_damping or by", "both",
+       "leave one of them out"},
+      {"flip = 0.95", "@stress_damping = -0.1", "0 <= stress_damping", "-0.1", "within these bounds"},
+      {"flip = 0.95", "@stress_damping_time = 0", "stress_damping_time", "0", "within these bounds"},
+      {"flip = 0.95", "@pic_time = 0", "pic_time", "0", "within these bounds"},
+  });
+}
+
 TEST(BadCase, LengthsWithoutSofteningOverThem) {
   expect_all_refused({
       {"density = 1.8", "density = 1.8\n@length = -0.5", "length", "-0.5", ""},

@@ -56,6 +56,29 @@ TEST(GoodCase, Regions) {
   EXPECT_TRUE(right.initial.empty());
 }
 
+TEST(GoodCase, Schemes) {
+  const auto method = [](const std::string& text) { return read(replaced(minimal, "flip = 0.95", text)).method; };
+  const auto standard = method("");
+  EXPECT_EQ(standard.scheme, SchemeName::two_term);
+  EXPECT_EQ(standard.safety, 0.8);
+  EXPECT_EQ(standard.pic_time, 0.5);
+  EXPECT_FALSE(standard.stress_damping || standard.ignored_flip);
+  EXPECT_EQ(standard.stress_damping_time, 0.0);
+  EXPECT_TRUE(method("flip = 0.95").ignored_flip);
+  const auto report = method("scheme = \"report\"\nflip = 0.9");
+  EXPECT_EQ(report.scheme, SchemeName::report);
+  EXPECT_EQ(report.flip, 0.9);
+  EXPECT_EQ(report.safety, 0.5);
+  EXPECT_FALSE(report.ignored_flip);
+  EXPECT_EQ(method("scheme = \"report\"\nsafety = 0.7").safety, 0.7);
+  const auto apic = method("scheme = \"apic\"\nstress_damping = 0.2");
+  EXPECT_EQ(apic.scheme, SchemeName::apic);
+  EXPECT_EQ(apic.stress_damping, 0.2);
+  const auto timed = method("scheme = \"two-term\"\npic_time = 2\nstress_damping_time = 0.005");
+  EXPECT_EQ(timed.pic_time, 2.0);
+  EXPECT_EQ(timed.stress_damping_time, 0.005);
+}
+
 TEST(GoodCase, BoundariesAndStages) {
   const Case c = read(minimal);
   ASSERT_EQ(c.boundaries.size(), 2u);

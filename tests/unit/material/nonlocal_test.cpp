@@ -162,7 +162,8 @@ template <class Law>
 void expect_same_as_local(const Law& law) {
   ASSERT_TRUE(law.softens());
   const Nonlocal<Law> nonlocal(law);
-  PlasticState<double, 4> s{isotropic<double, 4>(50.0), Sym<double, 4>::zero(), 0.0};
+  typename Law::template State<double, 4> s{};
+  s.sigma = isotropic<double, 4>(50.0);
   auto n = nonlocal_state<Law>(s);
   double peak = 0;
   for (int i = 0; i < 400; ++i) {
