@@ -208,7 +208,7 @@ def run(program, one, out):
     settings = json.dumps([one.case, one.arguments(), one.threads])
     newest = max(os.path.getmtime(program), os.path.getmtime(ROOT / one.case))
     if (said.exists() and said.read_text() == settings and summary.exists() and summary.stat().st_mtime > newest
-            and json.loads(summary.read_text())["status"] != "running"):
+            and json.loads(summary.read_text())["status"] in ("done", "failed")):
         return folder
     folder.mkdir(parents=True, exist_ok=True)
     print(f"{one.study}: {one.name}", file=sys.stderr, flush=True)
