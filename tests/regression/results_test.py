@@ -118,7 +118,7 @@ class Results(ProgramTest):
         self.write("round.toml", round_)
         self.scarp("run", "round.toml", "--quiet")
         self.assertLess(self.history("round.out")[-1]["kinetic_energy"], 1e-20)
-        self.write("gimp.toml", replaced(opened(COLUMN), "[[material]]", '[method]\nshape = "gimp"\n\n[[material]]'))
+        self.write("gimp.toml", replaced(opened(COLUMN), "[method]", '[method]\nshape = "gimp"'))
         self.refused("check", "gimp.toml", parts=["linear shape functions only"])
 
     def test_the_profile_shares_out_the_whole(self):

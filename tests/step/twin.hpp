@@ -255,7 +255,7 @@ class Twin {
       least = std::min(least, m_[n]);
       most = std::max(most, m_[n]);
     }
-    if (least < 0.1 * most) return false;
+    if (least < 0.2 * most) return false;
     // From the point straight into the element a way of the lateness leads to where it is inside, and the other way
     // outside the mesh nothing is held: these tests keep their soil off the sides of the mesh.
     if (mesh.grid) {

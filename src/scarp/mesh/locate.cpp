@@ -86,8 +86,8 @@ Locator<Dim>::Locator(const Mesh<Dim>& mesh) : mesh_(&mesh) {
   }
 }
 
-/// A side of which no other element has a Dim of its nodes in a side of its own. (A quadrilateral face may be shared by two
-/// tetrahedra.)
+/// A side of which no other element has a Dim of its nodes in a side of its own. (A quadrilateral face may be shared by
+/// two tetrahedra.)
 template <int Dim>
 void Locator<Dim>::find_outer_sides() {
   struct Corner {

@@ -35,15 +35,15 @@ struct Points {
   std::array<Column, Dim> x, v, x_start;  ///< position, velocity, and the position that displacements count from
   std::array<Column, Dim> xi;             ///< local coordinates in the element; empty where the mesh needs none stored
   std::array<Column, stress_size> sigma;  ///< Cauchy stress, Mandel components
-  std::array<Column, stress_size> sigma_ahead;  ///< σ*, what nodes feel where the rate of stress is damped; columns that
-                                                ///< a scheme or body does not need are empty
-  std::array<Column, Dim * Dim> C;  ///< gradient of velocity that a point of an affine scheme carries [1/s], C_jk at
-                                    ///< j Dim + k; empty in others
-  Column eps_q;                           ///< ∫ √(2/3) ‖dev dε‖
-  std::vector<int> element;               ///< element that holds the point
-  std::vector<int> id;                    ///< number at the start of the computation
-  std::vector<std::uint8_t> flags;        ///< PointFlag bits
-  std::vector<std::uint8_t> substeps;     ///< of the last stress update, at most 255
+  std::array<Column, stress_size> sigma_ahead;  ///< σ*, what nodes feel where the rate of stress is damped; columns
+                                                ///< that a scheme or body does not need are empty
+  std::array<Column, Dim * Dim> C;     ///< gradient of velocity that a point of an affine scheme carries [1/s], C_jk at
+                                       ///< j Dim + k; empty in others
+  Column eps_q;                        ///< ∫ √(2/3) ‖dev dε‖
+  std::vector<int> element;            ///< element that holds the point
+  std::vector<int> id;                 ///< number at the start of the computation
+  std::vector<std::uint8_t> flags;     ///< PointFlag bits
+  std::vector<std::uint8_t> substeps;  ///< of the last stress update, at most 255
 
   int size() const { return static_cast<int>(mass.size()); }
   /// Component j of the displacement of point i.

@@ -162,7 +162,7 @@ unsigned still_inside(const typename Basis::Cell& cell, const Lanes& p, const st
   return inside;
 }
 
-/// Have the nodes of an element masses that differ by no more than a factor of ten? A last point that lingers beyond a
+/// Have the nodes of an element masses that differ by no more than a factor of five? A last point that lingers beyond a
 /// free edge would leave a node with next to no mass, or less than none.
 template <class Basis>
 bool nodes_are_full(const Body<Basis::dim>& body, int e) {
@@ -171,7 +171,7 @@ bool nodes_are_full(const Body<Basis::dim>& body, int e) {
     least = std::min(least, body.buffers.node[n].m);
     most = std::max(most, body.buffers.node[n].m);
   }
-  return least >= 0.1 * most;
+  return least >= 0.2 * most;
 }
 
 /// Step 11, late: points that are beyond their element by no more than `lateness` parts of it stay there, wherever the

@@ -81,8 +81,8 @@ inline std::array<double, 2> parabola_of(const std::vector<double>& t, int i, in
   return sum;
 }
 
-/// `half` is half the edge of the point's domain [m], for GIMP. At a line between cells the cell `at` decides the slope;
-/// beyond its cell a point has what the functions of the cell go on to.
+/// `half` is half the edge of the point's domain [m], for GIMP. At a line between cells the cell `at` decides the
+/// slope; beyond its cell a point has what the functions of the cell go on to.
 inline AlongAxis functions_along_axis(GridFunctions functions, int n, double h, double u, double half, int at) {
   AlongAxis all;
   if (functions == GridFunctions::b_spline) {
