@@ -129,7 +129,7 @@ input::CaseOf<Dim> grid_case(int points, const AnyModel& model) {
   grid.size.fill(n);
   grid.elements.fill(n);
   input.mesh.grid = grid;
-  input.materials.push_back({"soil", model, density, {}});
+  input.materials.push_back({"soil", model, density, {}, 0, {}});
   input.regions.push_back(ground<Dim>(n, model));
   input::BoundaryInput bottom;
   bottom.nodes = "bottom";
