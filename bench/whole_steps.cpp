@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -34,20 +35,22 @@ Times write_frame(const Body<Dim>& body, const std::string& path) {
 
 /// make() gives the body.
 template <class Make>
-Prepared steps_of(Make&& make) {
+Prepared steps_of(const Scheme& scheme, Make&& make) {
+  StepSettings settings;
+  settings.scheme = scheme;
   Prepared prepared;
   const Timer since_start;
   const auto body = std::make_shared<decltype(make())>(make());
   since_start.read(prepared.start);
   compress(*body, compression_rate);
-  if (!(time_step < 0.5 * critical_time_step(*body))) throw std::logic_error("the benchmark's time step is too long");
+  if (!(time_step < 0.5 * critical_time_step(*body, scheme)))
+    throw std::logic_error("the benchmark's time step is too long");
   const int points = body->point_count(), steps = std::clamp(4'000'000 / points, 4, 4000);
-  for (int k = 0; k < 3; ++k) advance(*body, time_step, {});  // buffers and caches find their size
+  for (int k = 0; k < 3; ++k) advance(*body, time_step, settings);  // buffers and caches find their size
   prepared.points = points;
   prepared.elements = body->active.size();
   prepared.write_frame = [body](const std::string& path) { return write_frame(*body, path); };
-  prepared.repeat = [body, steps, points](bool profile) {
-    StepSettings settings;
+  prepared.repeat = [body, steps, points, settings](bool profile) mutable {
     settings.profile = profile;
     Repetition result;
     const Timer timer;
@@ -129,7 +132,8 @@ class SlopeCut {
 
   void run_stage(int index, bool profile, run::StageRecord& record) {
     const std::function<bool()> interrupted = [] { return false; };
-    run::Context<2> context{input_, body_, ledger_, results_, progress_, interrupted, profile};
+    run::EnergyCheck energy(ledger_, std::numeric_limits<double>::infinity());
+    run::Context<2> context{input_, body_, ledger_, results_, progress_, energy, interrupted, profile};
     run::run_stage(context, index, record);
   }
 
@@ -156,19 +160,28 @@ Prepared slope_cut_failing() {
 
 }  // namespace
 
-Prepared prepare(const std::string& name, int points) {
+Prepared prepare(const std::string& asked, int points) {
+  const auto colon = asked.find(':');
+  const std::string name = asked.substr(0, colon);
+  const Scheme scheme = colon == std::string::npos ? two_term_scheme()
+                        : asked.substr(colon + 1) == "report"
+                            ? report_scheme()
+                            : throw InputError("a benchmark has the standard scheme, or the report's",
+                                               '"' + asked + '"', "append :report, or nothing");
   const AnyModel elastic = LinearElastic({1e4, 0.25});
-  if (name == "q4-elastic") return steps_of([&] { return run::build_body(grid_case<2>(points, elastic)); });
-  if (name == "mesh-elastic") return steps_of([&] { return mesh_body(points, elastic, ElementShape::quadrilaterals); });
-  if (name == "mesh-elastic-t3") return steps_of([&] { return mesh_body(points, elastic, ElementShape::triangles); });
+  if (name == "q4-elastic") return steps_of(scheme, [&] { return run::build_body(grid_case<2>(points, elastic)); });
+  if (name == "mesh-elastic")
+    return steps_of(scheme, [&] { return mesh_body(points, elastic, ElementShape::quadrilaterals); });
+  if (name == "mesh-elastic-t3")
+    return steps_of(scheme, [&] { return mesh_body(points, elastic, ElementShape::triangles); });
   if (name == "bspline-elastic") {
     auto input = grid_case<2>(points, elastic);
     input.method.shape = GridFunctions::b_spline;
-    return steps_of([&] { return run::build_body(input); });
+    return steps_of(scheme, [&] { return run::build_body(input); });
   }
-  if (name == "q4-subloading") return steps_of([&] { return run::build_body(grid_case<2>(points, soil())); });
-  if (name == "h8-elastic") return steps_of([&] { return run::build_body(grid_case<3>(points, elastic)); });
-  if (name == "h8-subloading") return steps_of([&] { return run::build_body(grid_case<3>(points, soil())); });
+  if (name == "q4-subloading") return steps_of(scheme, [&] { return run::build_body(grid_case<2>(points, soil())); });
+  if (name == "h8-elastic") return steps_of(scheme, [&] { return run::build_body(grid_case<3>(points, elastic)); });
+  if (name == "h8-subloading") return steps_of(scheme, [&] { return run::build_body(grid_case<3>(points, soil())); });
   if (name == "slope-cut-failing") return slope_cut_failing();
   throw InputError("there is no such benchmark", '"' + name + '"', "see docs/benchmarks.md for their names");
 }

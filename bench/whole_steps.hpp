@@ -44,8 +44,8 @@ class Timer {
   Clock::time_point start_ = Clock::now();
 };
 
-/// One of the cases of docs/benchmarks.md, with about so many points; "slope-cut-failing" has its own number. Throws
-/// InputError for a name that is none.
+/// One of the cases of docs/benchmarks.md, with about so many points; "slope-cut-failing" has its own number. Steps of
+/// the standard scheme, or of the report's where ":report" follows the name. Throws InputError for a name that is none.
 Prepared prepare(const std::string& name, int points);
 
 }  // namespace scarp::bench
