@@ -69,6 +69,12 @@ Counted sqrt(const Counted& a) {
 Counted log(const Counted& a) {
   return counted(std::log(a.v));
 }
+Counted exp(const Counted& a) {
+  return counted(std::exp(a.v));
+}
+Counted abs(const Counted& a) {
+  return Counted(std::abs(a.v));
+}
 Counted max(const Counted& a, const Counted& b) {
   return a.v > b.v ? a : b;
 }
