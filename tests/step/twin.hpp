@@ -6,33 +6,38 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <stdexcept>
 #include <vector>
 
-#include "../unit/mesh/grid_oracles.hpp"
 #include "scarp/step/step.hpp"
+#include "twin_shapes.hpp"
 #include "twin_strain.hpp"
 
 namespace scarp::test {
 
+/// A point of the twin.
 template <class Model, int Dim>
-class Twin {
+struct TwinPoint {
+  double m, Omega, half_edge;  ///< of the domain, from the volume at the start
+  Vec<Dim> x, v;
+  std::array<Vec<Dim>, Dim> C{};                                ///< of an affine scheme
+  typename Model::template State<double, sym_size<Dim>> state;  ///< compression positive
+  Sym<double, sym_size<Dim>> ahead;                             ///< σ*, likewise
+  int element;
+};
+
+template <class Model, int Dim>
+class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
+  using Point = TwinPoint<Model, Dim>;
+  using Shapes = TwinShapes<Point, Dim>;
+  using Shapes::at_;
+  using Shapes::body_;
   static constexpr int N = sym_size<Dim>;
   using State = typename Model::template State<double, N>;
 
  public:
-  struct Point {
-    double m, Omega, half_edge;  ///< of the domain, from the volume at the start
-    Vec<Dim> x, v;
-    std::array<Vec<Dim>, Dim> C{};  ///< of an affine scheme
-    State state;                    ///< compression positive
-    Sym<double, N> ahead;           ///< σ*, likewise
-    int element;
-  };
-
   /// The points of the first block of a body, by their numbers.
-  Twin(const Body<Dim>& body, const Model& model) : body_(body), model_(model) {
+  Twin(const Body<Dim>& body, const Model& model) : Shapes(body), model_(model) {
     const auto& block = body.blocks[0];
     points.resize(block.size());
     for (int i = 0; i < block.size(); ++i) {
@@ -54,13 +59,13 @@ class Twin {
     }
   }
 
-  std::vector<Point> points;
+  using Shapes::points;
   double kinetic_energy = 0, work_gravity = 0;
 
   void advance(double dt, const StepSettings& settings) {
     const Scheme& scheme = settings.scheme;
     const double phi = scheme.flip * std::exp(-dt / scheme.pic_time);
-    find_shapes(settings);
+    this->find_shapes(settings);
     // Steps 1 and 2 (eqs 1–4).
     const auto nodes = body_.mesh->nodes.size();
     m_.assign(nodes, 0.0);
@@ -147,16 +152,6 @@ class Twin {
     const double undamped = body_.gravity[normal] - F_int[normal] / m;
     if (body_.conditions.inward[n] * (v[normal] + undamped * dt) < 0) a[normal] = undamped;
   }
-
-  /// A point's local nodes with N_i and B̂_i, whose third component is N_i / r in a body of revolution, and the weight w
-  /// of its volume; and the mean gradients of its element where the volume strain is their mean.
-  struct AtPoint {
-    std::vector<int> node;
-    std::vector<double> N;
-    std::vector<Vec<3>> B, B_own;  ///< corrected, and as the functions have it
-    double w = 1;
-    std::map<int, Vec<3>> mean;
-  };
 
   int mean_directions() const { return body_.mesh->axisymmetric ? 3 : Dim; }
 
@@ -298,177 +293,10 @@ class Twin {
     return holds;
   }
 
-  /// Nodes of a grid that are not nothing at x, by the definitions of its functions.
-  AtPoint at_nodes_of_grid(int e, const Vec<Dim>& x, double half_edge) const {
-    const auto all = functions_of_all_nodes<Dim>(*body_.mesh, e, x, half_edge);
-    AtPoint at;
-    for (int n = 0; n < body_.mesh->node_count(); ++n) {
-      bool nothing = all.N[n] == 0;
-      for (const double slope : all.B[n]) nothing = nothing && slope == 0;
-      if (nothing) continue;
-      at.node.push_back(n);
-      at.N.push_back(all.N[n]);
-      at.B.push_back(with_hoop(all.B[n], all.N[n], x));
-    }
-    return at;
-  }
-
-  /// ∇N_i at x, and N_i / r after it in a body of revolution.
-  Vec<3> with_hoop(const Vec<Dim>& slope, double N_i, const Vec<Dim>& x) const {
-    Vec<3> B{};
-    for (int j = 0; j < Dim; ++j) B[j] = slope[j];
-    if (body_.mesh->axisymmetric) B[2] = N_i / x[0];
-    return B;
-  }
-
-  void find_shapes(const StepSettings& settings) {
-    const auto& mesh = *body_.mesh;
-    at_.assign(points.size(), {});
-    std::vector<std::vector<std::size_t>> in(mesh.types.size());
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      const int e = points[k].element;
-      in[e].push_back(k);
-      if (mesh.grid) {
-        at_[k] = at_nodes_of_grid(e, points[k].x, points[k].half_edge);
-        continue;
-      }
-      with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
-        const auto x_i = node_positions<Shape>(mesh, e);
-        std::array<double, Shape::nodes> N_i;
-        std::array<Vec<Dim>, Shape::nodes> B;
-        gradients<Shape>(x_i, Shape::local_coordinates(x_i, points[k].x), N_i, B);
-        const auto nodes = mesh.element_nodes(e);
-        at_[k].node.assign(nodes.begin(), nodes.end());
-        at_[k].N.assign(N_i.begin(), N_i.end());
-        for (int i = 0; i < Shape::nodes; ++i) at_[k].B.push_back(with_hoop(B[i], N_i[i], points[k].x));
-      });
-    }
-    for (auto& at : at_) at.B_own = at.B;
-    if (settings.quadrature != Quadrature::corrected || (mesh.grid && mesh.grid->functions == GridFunctions::gimp))
-      return;
-    for (int e = 0; e < mesh.element_count(); ++e) {
-      bool inside = !in[e].empty();
-      for (const int other : mesh.elements_around(e)) inside = inside && !in[other].empty();
-      if (inside && correct(e, in[e]) && settings.scheme.mean_dilatation && !is_simplex(e)) find_means(in[e]);
-    }
-  }
-
-  /// f(B_i, nodes i, dV) at quadrature points of element e that integrate gradients exactly.
-  template <class F>
-  void for_quadrature_points(int e, F&& f) const {
-    const auto& mesh = *body_.mesh;
-    if (mesh.grid) {
-      for_gauss_points([&](const Vec<Dim>& xi, double weight) {
-        const auto& grid = *mesh.grid;
-        const auto place = grid.cell(e);
-        Vec<Dim> x;
-        for (int j = 0; j < Dim; ++j) {
-          x[j] = grid.origin[j] + (place[j] + 0.5 * (1 + xi[j])) * grid.spacing[j];
-          weight *= 0.5 * grid.spacing[j];
-        }
-        const auto at = at_nodes_of_grid(e, x, 0);
-        f(at.B, at.node, mesh.axisymmetric ? weight * x[0] : weight);
-      });
-      return;
-    }
-    with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
-      const auto add = [&](const Vec<Dim>& xi, double weight) {
-        const auto x_i = node_positions<Shape>(mesh, e);
-        std::array<double, Shape::nodes> N_i;
-        std::array<Vec<Dim>, Shape::nodes> slopes;
-        std::array<Vec<3>, Shape::nodes> B;
-        const double dV = weight * gradients<Shape>(x_i, xi, N_i, slopes);
-        Vec<Dim> x{};
-        for (int i = 0; i < Shape::nodes; ++i) {
-          for (int j = 0; j < Dim; ++j) x[j] += N_i[i] * x_i[i][j];
-        }
-        for (int i = 0; i < Shape::nodes; ++i) B[i] = with_hoop(slopes[i], N_i[i], x);
-        f(B, mesh.element_nodes(e), mesh.axisymmetric ? dV * x[0] : dV);
-      };
-      if constexpr (Shape::nodes == Dim + 1) {
-        Vec<Dim> centre;
-        centre.fill(1.0 / (Dim + 1));
-        add(centre, Dim == 2 ? 0.5 : 1.0 / 6);
-      } else {
-        for_gauss_points(add);
-      }
-    });
-  }
-
-  /// f(ξ, weight) for three Gauss points along each axis from −1 to 1: one more than it takes.
-  template <class F>
-  static void for_gauss_points(F&& f) {
-    const double place[3] = {-std::sqrt(0.6), 0, std::sqrt(0.6)}, weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
-    for (int q = 0; q < (Dim == 2 ? 9 : 27); ++q) {
-      const int k[3] = {q % 3, q / 3 % 3, q / 9};
-      Vec<Dim> xi;
-      double w = 1;
-      for (int j = 0; j < Dim; ++j) {
-        xi[j] = place[k[j]];
-        w *= weight[k[j]];
-      }
-      f(xi, w);
-    }
-  }
-
-  bool is_simplex(int e) const {
-    return !body_.mesh->grid && body_.mesh->element_nodes(e).size() == static_cast<std::size_t>(Dim + 1);
-  }
-
-  /// B̄_i = Σ Ω_p B̂_i(x_p) / Σ Ω_p over the points of an element.
-  void find_means(const std::vector<std::size_t>& in) {
-    std::map<int, Vec<3>> mean;
-    double filled = 0;
-    for (const auto k : in) filled += points[k].Omega;
-    for (const auto k : in) {
-      for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
-        for (int j = 0; j < 3; ++j) mean[at_[k].node[i]][j] += points[k].Omega * at_[k].B[i][j] / filled;
-      }
-    }
-    for (const auto k : in) at_[k].mean = mean;
-  }
-
-  /// Corrected quadrature inside the soil, as in docs/theory.md. Numbers of nodes are those of the mesh.
-  bool correct(int e, const std::vector<std::size_t>& in) {
-    double V = 0, filled = 0;
-    std::map<int, Vec<3>> shift;  // s_i
-    for_quadrature_points(e, [&](const auto& B, const auto& nodes, double dV) {
-      V += dV;
-      for (std::size_t i = 0; i < B.size(); ++i) {
-        for (int j = 0; j < 3; ++j) shift[nodes[i]][j] += B[i][j] * dV;
-      }
-    });
-    for (const auto k : in) filled += points[k].Omega;
-    if (!(filled > 0.5 * V && filled < 2 * V)) return false;
-    for (auto& [n, s] : shift) {
-      for (double& component : s) component /= V;
-    }
-    for (const auto k : in) {
-      for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
-        for (int j = 0; j < 3; ++j) shift[at_[k].node[i]][j] -= points[k].Omega * at_[k].B[i][j] / filled;
-      }
-    }
-    for (const auto k : in) {
-      at_[k].w = V / filled;
-      for (const auto& [n, s] : shift) {
-        const auto known = std::find(at_[k].node.begin(), at_[k].node.end(), n) - at_[k].node.begin();
-        if (known == static_cast<std::ptrdiff_t>(at_[k].node.size())) {
-          at_[k].node.push_back(n);
-          at_[k].N.push_back(0);
-          at_[k].B.push_back({});
-        }
-        for (int j = 0; j < 3; ++j) at_[k].B[known][j] += s[j];
-      }
-    }
-    return true;
-  }
-
-  const Body<Dim>& body_;
   const Model& model_;
   double least_mass_ = 1e300;
   std::vector<double> m_;           ///< of the nodes, in this step
   std::vector<std::uint8_t> held_;  ///< of the nodes, in this step
-  std::vector<AtPoint> at_;
 };
 
 }  // namespace scarp::test

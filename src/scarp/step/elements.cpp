@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "scarp/exec/parallel.hpp"
 #include "scarp/mesh/with_basis.hpp"
@@ -47,12 +48,13 @@ SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, const Places& places, cons
   auto& buffers = body.buffers;
   const typename Basis::Cell cell(*body.mesh, e);
   const transfer::ShapesAtPoints<Basis> shapes(cell);
-  bool full = false, mean_dilatation = false;
+  std::optional<transfer::Means<Basis>> means;  // of an element inside the soil
+  bool mean_dilatation = false;
   if constexpr (Basis::corrects) {
-    full = settings.quadrature == Quadrature::corrected && buffers.inside[slot];
+    if (settings.quadrature == Quadrature::corrected && buffers.inside[slot]) means.emplace(cell);
     if constexpr (transfer::has_shift<Basis>) {
-      mean_dilatation = full && settings.scheme.mean_dilatation &&
-                        transfer::fills(volume_of_points<Basis>(body, slot), transfer::Means<Basis>(cell));
+      mean_dilatation =
+          means && settings.scheme.mean_dilatation && transfer::fills(volume_of_points<Basis>(body, slot), *means);
     }
   }
   transfer::ElementSums<Basis> sums;
@@ -60,22 +62,12 @@ SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, const Places& places, cons
     transfer::points_to_nodes<Basis>(shapes, places, block.points, points_of(block, slot), mean_dilatation, sums);
   }
   transfer::Quadrature<Basis> quadrature;
-  auto F = [&] { return transfer::internal_force<Basis>(sums, quadrature); };
-  std::array<transfer::Nodal<Basis>, Basis::dim> force;
   if constexpr (Basis::corrects) {
-    if (full) {
-      const transfer::Means<Basis> mean(cell);
-      const double volume = xsimd::hadd(sums.Omega);
-      if (transfer::fills(volume, mean)) {
-        quadrature = transfer::full_element<Basis>(cell, mean, volume, sums.shift, transfer::totals<Basis>(sums.hoop));
-      }
-      if (mean_dilatation) quadrature.means = &mean;
-      force = F();
-    } else {
-      force = F();
+    const double volume = xsimd::hadd(sums.Omega);
+    if (means && transfer::fills(volume, *means)) {
+      quadrature = transfer::full_element<Basis>(cell, *means, volume, sums.shift, transfer::totals<Basis>(sums.hoop));
     }
-  } else {
-    force = F();
+    if (mean_dilatation) quadrature.means = &*means;
   }
   buffers.weight[slot] = quadrature.weight;
   buffers.mean_dilatation[slot] = mean_dilatation;
@@ -87,7 +79,8 @@ SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, const Places& places, cons
   if constexpr (transfer::keeps_mass_matrix<Basis>) {
     transfer::store_mass_matrix(sums, buffers.mass_matrix.data() + slot * mass_matrix_row(body.assembly.row()));
   }
-  transfer::add_to_nodes<Basis>(sums, force, body.assembly.places_of(slot), buffers.sums.data());
+  transfer::add_to_nodes<Basis>(sums, transfer::internal_force<Basis>(sums, quadrature), body.assembly.places_of(slot),
+                                buffers.sums.data());
 }
 
 /// The Motion of the local nodes of an element, from component `first` on.
