@@ -26,6 +26,7 @@ void set_to_zero(Body<Dim>& body, const input::StageInputOf<Dim>& stage, Ledger<
     }
     if (stage.zero_velocity) {
       for (auto& v : points.v) std::fill(v.begin(), v.end(), 0.0);
+      for (auto& C : points.C) std::fill(C.begin(), C.end(), 0.0);
     }
   }
   if (stage.zero_velocity) ledger.removed_kinetic_energy += ledger.last.kinetic_energy;
