@@ -283,8 +283,7 @@ void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, co
   if (motion.stayed > 0) books.search.most_examined = std::max<std::int64_t>(books.search.most_examined, 1);
 }
 
-}  // namespace
-
+/// The columns that only some schemes have; σ* starts as the stress it is, and C_p as nothing.
 template <int Dim>
 void prepare_columns(Body<Dim>& body, const Scheme& scheme) {
   for (auto& block : body.blocks) {
@@ -303,8 +302,11 @@ void prepare_columns(Body<Dim>& body, const Scheme& scheme) {
   }
 }
 
+}  // namespace
+
 template <int Dim>
 void map_points_to_elements(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books) {
+  prepare_columns(body, settings.scheme);
   for_each_chunk(body, body.assembly.chunk(), books, [&](int first, int last, StepBooks<Dim>&) {
     clear_places(body, first, body.buffers.sums, transfer::node_sums<Dim>);
     for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
@@ -353,8 +355,6 @@ void strain_stress_and_motion(Body<Dim>& body, double dt, const StepSettings& se
   books.dissipation_waves = books.stress.damping;
 }
 
-template void prepare_columns<2>(Body<2>&, const Scheme&);
-template void prepare_columns<3>(Body<3>&, const Scheme&);
 template void map_points_to_elements<2>(Body<2>&, const StepSettings&, StepBooks<2>&);
 template void map_points_to_elements<3>(Body<3>&, const StepSettings&, StepBooks<3>&);
 template void sum_with_mass_matrix<2>(Body<2>&, int, StepBooks<2>&);

@@ -17,17 +17,6 @@ void for_each_chunk(Body<Dim>& body, StepBooks<Dim>& books, F&& f) {
   exec::sum_over_chunks(body.assembly.size(), node_chunk, body.buffers.books, books, f);
 }
 
-/// Step 2: the sum over the places of active node k, n numbers each.
-template <int n, int Dim>
-std::array<double, n> gathered(const Body<Dim>& body, int k, const Column& numbers) {
-  std::array<double, n> sum{};
-  body.assembly.gather(k, [&](int place) {
-    const double* part = numbers.data() + static_cast<std::size_t>(place) * n;
-    for (int q = 0; q < n; ++q) sum[q] += part[q];
-  });
-  return sum;
-}
-
 /// Does anything resist the motion of a node?
 template <int Dim>
 bool is_resisted(const Body<Dim>& body, int n, double damping) {

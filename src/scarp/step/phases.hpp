@@ -1,16 +1,26 @@
 // The parts of a step, in the order of step.cpp. Not for use outside step/.
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "scarp/step/step.hpp"
 
 namespace scarp::step {
 
-/// Before step 1: the columns of the points that only some schemes have; σ* starts as the stress it is, and C_p as
-/// nothing.
-template <int Dim>
-void prepare_columns(Body<Dim>& body, const Scheme& scheme);
+/// Step 2: the sum over the places of active node k, n numbers each.
+template <int n, int Dim>
+std::array<double, n> gathered(const Body<Dim>& body, int k, const Column& numbers) {
+  std::array<double, n> sum{};
+  body.assembly.gather(k, [&](int place) {
+    const double* part = numbers.data() + static_cast<std::size_t>(place) * n;
+    for (int q = 0; q < n; ++q) sum[q] += part[q];
+  });
+  return sum;
+}
 
-/// Step 1: every element adds up mass, momentum and internal force for its own local nodes from its own points.
+/// Step 1: every element adds up mass, momentum and internal force for its own local nodes from its own points, which
+/// first get the columns that the scheme needs.
 template <int Dim>
 void map_points_to_elements(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books);
 

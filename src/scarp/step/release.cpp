@@ -34,19 +34,14 @@ void take_reaction(const Conditions<Dim>& conditions, int n, Vec<Dim>& F) {
 
 template <int Dim>
 void hold_imbalance(Body<Dim>& body, const StepSettings& settings) {
-  constexpr int numbers = transfer::node_sums<Dim>;
   StepBooks<Dim> books;
   prepare_threads(body);
-  step::prepare_columns(body, settings.scheme);
   step::map_points_to_elements(body, settings, books);
   auto& release = body.release;
   release.imbalance.assign(body.mesh->node_count(), {});
   release.mass.assign(body.mesh->node_count(), 0.0);
   for (int k = 0; k < body.assembly.size(); ++k) {
-    std::array<double, numbers> sum{};  // m, p, F_int
-    body.assembly.gather(k, [&](int place) {
-      for (int q = 0; q < numbers; ++q) sum[q] += body.buffers.sums[static_cast<std::size_t>(place) * numbers + q];
-    });
+    const auto sum = step::gathered<transfer::node_sums<Dim>>(body, k, body.buffers.sums);  // m, p, F_int
     if (sum[0] < body.least_mass) continue;
     const int n = body.assembly.node(k);
     Vec<Dim>& F = release.imbalance[n];

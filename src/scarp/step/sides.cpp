@@ -216,21 +216,16 @@ Sides<Dim> soil_beyond(const Body<Dim>& body, const AbsorbingSide& side) {
 template <int Dim>
 void open_side(Body<Dim>& body, const StepSettings& settings, const AbsorbingSide& side,
                const Conditions<Dim>& others) {
-  constexpr int numbers = transfer::node_sums<Dim>;
   const auto beyond = soil_beyond(body, side);
   StepBooks<Dim> books;
   prepare_threads(body);
-  step::prepare_columns(body, settings.scheme);
   step::map_points_to_elements(body, settings, books);
   auto& sides = body.sides;
   if (!sides.active()) sides.of_node.assign(body.mesh->nodes.size(), -1);
   for (int k = 0; k < body.assembly.size(); ++k) {
     const int n = body.assembly.node(k);
     if (!beyond.holds(n)) continue;
-    std::array<double, numbers> sum{};  // m, p, F_int
-    body.assembly.gather(k, [&](int place) {
-      for (int q = 0; q < numbers; ++q) sum[q] += body.buffers.sums[static_cast<std::size_t>(place) * numbers + q];
-    });
+    const auto sum = step::gathered<transfer::node_sums<Dim>>(body, k, body.buffers.sums);  // m, p, F_int
     if (sum[0] < body.least_mass) continue;
     const bool fresh = sides.of_node[n] < 0;
     if (fresh) {

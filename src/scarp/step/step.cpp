@@ -115,7 +115,6 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
   };
   const Scheme& scheme = settings.scheme;
   prepare_threads(body);
-  step::prepare_columns(body, scheme);
   timed(Phase::points_to_nodes, [&] { step::map_points_to_elements(body, settings, books); });  // 1, eqs 1–4
   timed(Phase::nodes, [&] { step::accelerate_nodes(body, dt, settings, books); });              // 2 and 3, eq. 5
   if (scheme.two_terms) {
