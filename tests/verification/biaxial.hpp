@@ -12,6 +12,7 @@
 #include <cmath>
 #include <vector>
 
+#include "../step/soils.hpp"
 #include "body_maker.hpp"
 
 namespace scarp::verification {
@@ -27,23 +28,7 @@ class Biaxial {
       : h_(width / n),
         body_(on_grid({0, 0}, {width + beside, height + thickness}, {n + cells(beside), cells(height + thickness)},
                       {0, 0}, GridFunctions::gimp)) {
-    add(*make_model("subloading", {{"kappa", .02},
-                                   {"lambda", .12},
-                                   {"nu", .3},
-                                   {"p_e", 5},
-                                   {"M", 1.0},
-                                   {"M_c", 1.3},
-                                   {"k", .78},
-                                   {"alpha", 1},
-                                   {"xi", .01},
-                                   {"c_R", 60},
-                                   {"c_beta", 5},
-                                   {"c_b", 20},
-                                   {"R_bf", 1},
-                                   {"c_a", 3},
-                                   {"p_atm", 101.325}})
-             .model,
-        rho, {0, 0}, {width, height}, length);
+    add(test::subloading(), rho, {0, 0}, {width, height}, length);
     add(linear_elastic(20, 0.0), rho, {width, 0}, {width + beside, height}, 0);
     add(linear_elastic(1e4, 0.0), 1e4 * rho, {0, height}, {width + beside, height + thickness}, 0);
     set_clay(weakness);

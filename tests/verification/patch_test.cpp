@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "../step/soils.hpp"
 #include "body_maker.hpp"
 #include "scarp/transfer/transfer.hpp"
 
@@ -118,22 +119,7 @@ std::array<double, 4> turned(const std::array<double, 4>& a, double angle) {
 
 TEST(RigidRotation, TurnsStressBetaAndCentreWithTheBody) {
   // Nodes move with v = ω × x exactly; steps 6 to 10 and 7 then see pure spin.
-  const auto model = *make_model("subloading", {{"kappa", .02},
-                                                {"lambda", .12},
-                                                {"nu", .3},
-                                                {"p_e", 5},
-                                                {"M", 1.0},
-                                                {"M_c", 1.3},
-                                                {"k", .78},
-                                                {"alpha", 1},
-                                                {"xi", .01},
-                                                {"c_R", 60},
-                                                {"c_beta", 5},
-                                                {"c_b", 20},
-                                                {"R_bf", 1},
-                                                {"c_a", 3},
-                                                {"p_atm", 101.325}})
-                          .model;
+  const auto model = test::subloading();
   auto body = on_grid({-1, -1}, {1, 1}, {2, 2}, {0, 0});
   auto& block = add_box(body, model, 1.8, {-0.8, -0.8}, {0.8, 0.8}, {4, 4});
   const std::array<double, 4> sigma{-60, -100, -70, 20 * sqrt2}, beta{-0.1, 0.25, -0.15, 0.05 * sqrt2},

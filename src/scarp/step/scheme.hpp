@@ -44,8 +44,6 @@ struct StressDamping {
   /// points bring in when they change element.
   static constexpr double of_elastic = 0.01, of_others = 0.4;
   double share_of(bool elastic) const { return share.value_or(elastic ? of_elastic : of_others); }
-  bool active() const { return time > 0 || share.value_or(1) > 0; }
-  bool operator==(const StressDamping&) const = default;
 };
 
 struct Scheme {
@@ -65,8 +63,6 @@ struct Scheme {
   double kept(double dt) const { return flip * std::exp(-dt / pic_time); }
   /// Is P before displacements?
   bool filters_motion() const { return two_terms || affine; }
-
-  bool operator==(const Scheme&) const = default;
 };
 
 /// The report's, with φ the same in each step whatever its length.
