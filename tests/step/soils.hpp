@@ -62,6 +62,11 @@ inline AnyModel subloading() {
   return *make_model("subloading", subloading_constants()).model;
 }
 
+/// Without cohesion or dilation: opens, and closes.
+inline AnyModel sand() {
+  return *make_model("mohr-coulomb", {{"E", 1000}, {"nu", .3}, {"c", 0}, {"phi", 31}, {"psi", 0}}).model;
+}
+
 /// One of each law but umat, whose law is in a library of the user's, weak enough to yield in these tests.
 inline std::vector<AnyModel> every_model() {
   const std::map<std::string, double> clay{

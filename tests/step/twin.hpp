@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <vector>
 
@@ -61,6 +62,7 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
 
   using Shapes::points;
   double kinetic_energy = 0, work_gravity = 0;
+  double shared = 0;  ///< Σ |δ| of volume strains that points took from others of their element
 
   void advance(double dt, const StepSettings& settings) {
     const Scheme& scheme = settings.scheme;
@@ -140,7 +142,13 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
         constrain_velocity<Dim>(body_.conditions, scheme.wall, static_cast<int>(n), held_[n], v_end[n]);
     }
     // Steps 6 to 11 (eqs 9–19).
-    for (std::size_t k = 0; k < points.size(); ++k) strain_and_move(k, v_end, dt, settings);
+    std::vector<Kinematics> strains;
+    for (std::size_t k = 0; k < points.size(); ++k) strains.push_back(strain_and_move(k, v_end, dt, settings));
+    if (settings.scheme.shares_gaps) share_gaps(strains, dt);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      stress(k, strains[k], dt, settings);
+      points[k].element = element_of(points[k], settings.scheme.lateness);
+    }
   }
 
  private:
@@ -200,7 +208,7 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
     return mean;
   }
 
-  void strain_and_move(std::size_t k, const std::vector<Vec<Dim>>& v, double dt, const StepSettings& settings) {
+  Kinematics strain_and_move(std::size_t k, const std::vector<Vec<Dim>>& v, double dt, const StepSettings& settings) {
     Point& point = points[k];
     Matrix L{};  // L dt
     double mean = 0;
@@ -230,15 +238,72 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
       const double more = (mean - L[0][0] - L[1][1] - L[2][2]) / mean_directions();
       for (int j = 0; j < mean_directions(); ++j) L[j][j] += more;
     }
-    const auto turned = update_stress<N>(model_, point.state, {L, settings.scheme.middle}, dt, settings.integration);
+    point.Omega *= determinant(one_and(1, L));
+    return {L, settings.scheme.middle};
+  }
+
+  /// Pressures even out among the points of an element of which some are open.
+  void share_gaps(std::vector<Kinematics>& strains, double dt) {
+    if constexpr (HasGap<decltype(points[0].state)>) {
+      const int directions = mean_directions();
+      std::map<int, std::vector<std::size_t>> of_element;
+      for (std::size_t k = 0; k < points.size(); ++k) of_element[points[k].element].push_back(k);
+      for (const auto& [e, members] : of_element) {
+        const double h = body_.mesh->size[e];
+        double volume = 0, carrying = 0, s = 0, M = 0, rate2 = 0;
+        bool open = false;
+        for (const auto k : members) {
+          const Point& point = points[k];
+          volume += point.Omega;
+          s += point.Omega * own_mean_stress(point);
+          rate2 += point.Omega * std::max(1.0, at_[k].w) * point.Omega / (point.m * h * h);
+          if (point.state.gap > 0) {
+            open = true;
+          } else {
+            carrying += point.Omega;
+            M += point.Omega * model_.p_wave_modulus(point.state);
+          }
+        }
+        const double mean = s / volume;
+        for (const auto k : members) {  // none opens by more than the element
+          Point& point = points[k];
+          const double most = std::pow(h, Dim) * (directions > Dim ? point.x[0] : 1);
+          double dilation = 0;
+          for (int j = 0; j < directions; ++j) dilation += strains[k].strain[j][j];
+          if (point.Omega - point.Omega * std::exp(-point.state.gap) > most && dilation > 0)
+            take(point, strains[k], -dilation);
+        }
+        if (!open || carrying == 0) continue;
+        const double theta = 0.5 * std::min(1.0, dt * std::sqrt(M / carrying * rate2 / volume));
+        for (const auto k : members) {
+          const double delta = theta * (mean - own_mean_stress(points[k])) / (M / carrying);
+          take(points[k], strains[k], delta);
+          shared += std::abs(delta);
+        }
+      }
+    }
+  }
+  void take(Point& point, Kinematics& strain, double delta) const {
+    point.Omega *= std::exp(delta);
+    for (int j = 0; j < mean_directions(); ++j) strain.strain[j][j] += delta / mean_directions();
+  }
+  /// Of σ, tension positive.
+  double own_mean_stress(const Point& point) const {
+    double sum = 0;
+    for (int j = 0; j < mean_directions(); ++j) sum -= point.state.sigma[j];
+    return sum / mean_directions();
+  }
+
+  void stress(std::size_t k, const Kinematics& strain, double dt, const StepSettings& settings) {
+    Point& point = points[k];
+    const auto [turned, separated] = update_stress<N>(model_, point.state, strain, dt, settings.integration);
     const auto waves = scheme::waves(settings.scheme, is_elastic(body_.blocks[0].model));
     const double h = body_.mesh->size[point.element], modulus = model_.p_wave_modulus(point.state);
-    point.Omega *= determinant(one_and(1, L));
     const double per_mass = std::max(1.0, at_[k].w) * point.Omega / point.m;
     const double beta = waves.time > 0 ? waves.time : waves.share * h / std::sqrt(modulus * per_mass);
     point.ahead = point.state.sigma;
-    for (int c = 0; c < N && beta > 0; ++c) point.ahead[c] += beta / dt * (point.state.sigma[c] - turned[c]);
-    point.element = element_of(point, settings.scheme.lateness);
+    for (int c = 0; c < N && beta > 0 && !separated; ++c)
+      point.ahead[c] += beta / dt * (point.state.sigma[c] - turned[c]);
   }
 
   /// Does a point linger in its element, late?

@@ -82,10 +82,16 @@ struct Kinematics {
   }
 };
 
-/// Turns the state (compression positive) with the spin; then the law takes the strain. Returns the stress as it was
-/// turned.
+/// What a stress update starts from, and whether it parts the point from the body.
+template <int N>
+struct Updated {
+  Sym<double, N> turned;
+  bool separated;
+};
+
+/// Turns the state (compression positive) with the spin; then the law takes the strain.
 template <int N, class Model, class State>
-Sym<double, N> update_stress(const Model& model, State& s, const Kinematics& k, double dt,
+Updated<N> update_stress(const Model& model, State& s, const Kinematics& k, double dt,
                              const IntegrationSettings& settings) {
   Sym<double, N> deps = Sym<double, N>::zero();
   Spin<double, N> spin;
@@ -102,10 +108,9 @@ Sym<double, N> update_stress(const Model& model, State& s, const Kinematics& k, 
   const auto whole = attempt<ModifiedEuler>(model, s, increment, settings.tolerance);
   if (whole.notes.sound && whole.error <= settings.tolerance) {
     s = whole.state;
-  } else {
-    integrate<ModifiedEuler>(model, s, increment, settings, 0.5);
+    return {turned, whole.notes.separated};
   }
-  return turned;
+  return {turned, integrate<ModifiedEuler>(model, s, increment, settings, 0.5).notes.separated};
 }
 
 }  // namespace scarp::test

@@ -74,6 +74,9 @@ void run_both(Mesh<Dim> mesh, const AnyModel& model, int along, int steps, const
   EXPECT_GT(changed, 0) << "no point has changed element: the case tells less than it should";
   std::printf("worst difference %.1e after %d steps, %d points, %lld changes of element\n", worst, steps,
               body.point_count(), static_cast<long long>(changed));
+  if (std::is_same_v<Model, MohrCoulomb>) {
+    EXPECT_GT(twin.shared, 0);
+  }
 }
 
 const StepSettings plain{.integration = {1e-4, 1e-5}}, all_on{.scheme = report_scheme(0.98),
@@ -135,6 +138,9 @@ TEST_P(InThePlane, LinearElasticWithTwoTerms) {
 TEST_P(InThePlane, SubloadingWithTwoTerms) {
   run_both<Subloading, 2>(plane_mesh(GetParam(), 10), subloading(), 13, 200, two_term(), 0.5);
 }
+TEST_P(InThePlane, SandThatOpensWithTwoTerms) {
+  run_both<MohrCoulomb, 2>(plane_mesh(GetParam(), 10), sand(), 13, 200, two_term());
+}
 TEST_P(InThePlane, BodyOfRevolutionWithTwoTerms) {
   if (GetParam() == Background::gimp) GTEST_SKIP() << "points that are boxes are no rings";
   run_both<LinearElastic, 2>(revolved(plane_mesh(GetParam(), 10)), elastic(), 13, 200, two_term());
@@ -144,6 +150,9 @@ TEST_P(InThePlane, LinearElasticWithApic) {
 }
 TEST_P(InSpace, LinearElasticWithTwoTerms) {
   run_both<LinearElastic, 3>(solid_mesh(GetParam(), 6), elastic(), 8, 150, two_term(0.1));
+}
+TEST_P(InSpace, SandThatOpensWithTwoTerms) {
+  run_both<MohrCoulomb, 3>(solid_mesh(GetParam(), 6), sand(), 8, 100, two_term());
 }
 TEST_P(InSpace, LinearElasticWithApic) {
   run_both<LinearElastic, 3>(solid_mesh(GetParam(), 6), elastic(), 8, 100, apic());

@@ -25,7 +25,7 @@ Body<2> collapsed(const AnyModel& sand) {
   fix(body.conditions, body.mesh->node_sets.at("left"), 0);
   for (int j = 0; j < 2; ++j) fix(body.conditions, body.mesh->node_sets.at("bottom"), j);
   StepSettings settings;
-  settings.scheme = report_scheme(0.95);
+  settings.scheme = two_term_scheme();
   run_until(body, 2, 0.5, settings, [](double, const StepBooks<2>&) {});
   return body;
 }
@@ -47,6 +47,7 @@ void expect_volume_is_kept(const std::string& name) {
   const auto& points = body.blocks[0].points;
   const auto& gap = body.blocks[0].state[gap_column(sand)];
   double volume = 0, carrying = 0, carrying_at_start = 0, run_out = 0;
+  int open = 0;
   for (int p = 0; p < points.size(); ++p) {
     volume += points.volume[p];
     run_out = std::max(run_out, points.x[0][p]);
@@ -56,18 +57,20 @@ void expect_volume_is_kept(const std::string& name) {
     EXPECT_NEAR(std::log(points.volume[p] / points.initial_volume[p]), (before - pressure) / K + gap[p], 6e-3);
     if (gap[p] > 0) {
       EXPECT_EQ(pressure, 0);
+      ++open;
     } else {
       carrying += points.volume[p];
       carrying_at_start += points.initial_volume[p];
     }
   }
-  std::printf("collapse, %s: volume %.4f, of what carries load %.4f of that at the start; run-out %.2f m\n",
-              name.c_str(), volume, carrying / carrying_at_start, run_out);
+  std::printf("collapse, %s: volume %.4f, of what carries load %.4f of that at the start, open %.3f; run-out %.2f m\n",
+              name.c_str(), volume, carrying / carrying_at_start, open * 1.0 / points.size(), run_out);
   EXPECT_GT(run_out, 1.4);
   EXPECT_NEAR(carrying / carrying_at_start, 1, 1e-3);  // ρ g H/K is 1.9e-3
-  // Points of one element open by unequal amounts, and those that have closed carry the others: some per cent are left.
-  // Sand that forgets its opening swells by 8 %.
-  EXPECT_NEAR(volume, 1, 0.035);
+  // What is left of openings is in single grains at the surface and the toe. Sand that forgets its opening swells by
+  // 8 %; with points that do not share theirs it takes 5 % more and a third of it has no stress.
+  EXPECT_NEAR(volume, 1, 0.03);
+  EXPECT_LT(open, 0.16 * points.size());
 }
 
 TEST(Collapse, SandThatDoesNotDilateKeepsItsVolume) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scarp/material/integrate/lanes.hpp"
+#include "scarp/material/plastic_state.hpp"
 #include "scarp/tensor/batch.hpp"
 
 namespace scarp::exec {
@@ -100,7 +101,7 @@ class Update {
         record(p.point(l), 1,
                {trial.notes.corrected.get(lane), trial.notes.on_floor.get(lane), trial.notes.separated.get(lane), true},
                IntegrationEnd::done);
-        bound_time_step(modulus.get(lane), at + l);
+        bound_time_step(modulus.get(lane) * closed_share(trial.state, lane), at + l);
       } else {
         straggler(p.point(l), at + l);
       }
@@ -152,7 +153,7 @@ class Update {
           if (damped_) look_ahead(p, at, start, end, report);
           store_state(end, p);
           record(p, report.substeps, report.notes, report.end);
-          bound_time_step(model_.p_wave_modulus(end), at);
+          bound_time_step(model_.p_wave_modulus(end) * closed_share(end), at);
         },
         settings_, 0.5);
     straggler_count_ = 0;
@@ -200,6 +201,15 @@ class Update {
       books_.failed_id = points_.id[p];
       books_.failed_end = end;
     }
+  }
+
+  /// Ω of a point over what it has now, when it will have stiffness: what is open has none before it has closed.
+  double closed_share(const State<double>& s) const { return waves_.open_are_soft ? volume_when_closed(s) : 1; }
+  double closed_share(const State<Batch>& s, std::size_t lane) const {
+    if constexpr (HasGap<State<Batch>>) {
+      if (waves_.open_are_soft) return volume_when_closed(s.gap.get(lane));
+    }
+    return 1;
   }
 
   /// The square of c/(k h) + |v|/h: its inverse is the time that a compression wave (with the factor k of the scheme)
@@ -349,7 +359,7 @@ double critical_time_step(const Block<Dim>& block, const std::vector<double>& el
   double dt = std::numeric_limits<double>::infinity();
   for (int i = 0; i < block.size(); ++i) {
     with_state(block, i, [&](const auto& model, const auto& state) {
-      const double modulus = model.p_wave_modulus(state);
+      const double modulus = model.p_wave_modulus(state) * (waves.open_are_soft ? volume_when_closed(state) : 1);
       if (!(modulus > 0)) return;
       double v2 = 0;
       for (int j = 0; j < Dim; ++j) v2 += points.v[j][i] * points.v[j][i];

@@ -21,6 +21,7 @@ namespace scarp::exec {
 struct WaveSettings {
   double share = 0, time = 0;  ///< ξ; β [s], which goes before
   double highest2 = 1;
+  bool open_are_soft = false;  ///< a point that is open counts with the volume that it will have when it has closed
 
   bool damped() const { return share > 0 || time > 0; }
   /// 1/k² where c²/h² = rate2 [1/s²].

@@ -1,6 +1,8 @@
 // The states of the linear-elastic, plastic laws (elastoplastic.hpp), of which some part from the body at no stress.
 #pragma once
 
+#include <cmath>
+
 #include "scarp/material/gap.hpp"
 #include "scarp/material/state.hpp"
 
@@ -39,5 +41,15 @@ template <class State>
 concept HasGap = requires(const State& s) {
   s.gap;
 };
+
+/// The volume that a point will have when its gap has closed, over its present one, 1 where it is not open.
+inline double volume_when_closed(double gap) {
+  return std::exp(-gap);
+}
+template <class State>
+double volume_when_closed(const State& s) {
+  if constexpr (HasGap<State>) return volume_when_closed(s.gap);
+  return 1;
+}
 
 }  // namespace scarp

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "scarp/exec/gap_sharing.hpp"
 #include "scarp/exec/parallel.hpp"
 #include "scarp/mesh/with_basis.hpp"
 #include "scarp/step/phases.hpp"
@@ -271,11 +272,12 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
 
 template <bool pic, int Dim>
 void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, const MoveRules& rules,
-                     Strains<Dim>& strains, StepBooks<Dim>& books) {
+                     Strains<Dim>& strains, exec::GapSharing<Dim>* sharing, StepBooks<Dim>& books) {
   MotionBooks<Dim> motion;
   for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
-    move_points<pic, Basis>(body, block, slot, e, rules, strains, block.begin[slot] - block.begin[first], motion,
-                            books);
+    const int at = block.begin[slot] - block.begin[first];
+    move_points<pic, Basis>(body, block, slot, e, rules, strains, at, motion, books);
+    if (sharing) sharing->in_element(points_of(block, slot), body.mesh->size[e], at);
   });
   book(motion.sums, books);
   books.search.own += motion.stayed;
@@ -337,18 +339,21 @@ void strain_stress_and_motion(Body<Dim>& body, double dt, const StepSettings& se
   for_each_chunk(body, element_chunk, books, [&](int first, int last, StepBooks<Dim>& part) {
     Strains<Dim>& strains = body.buffers.strains[exec::thread_number()];
     for (auto& block : body.blocks) {
+      exec::GapSharing<Dim> gaps(block, strains, body.mesh->axisymmetric ? 3 : Dim, dt);
+      auto* sharing = scheme.shares_gaps && gaps.active() ? &gaps : nullptr;
       {
         const Stopwatch<Dim> watch(settings.profile, part, Phase::strain_and_move);
         if (rules.motion.flip == 1) {
-          strain_and_move<false>(body, block, first, last, rules, strains, part);
+          strain_and_move<false>(body, block, first, last, rules, strains, sharing, part);
         } else {
-          strain_and_move<true>(body, block, first, last, rules, strains, part);
+          strain_and_move<true>(body, block, first, last, rules, strains, sharing, part);
         }
       }
       const Stopwatch<Dim> watch(settings.profile, part, Phase::stress);
       const PointRange range{block.order.data() + block.begin[first], block.begin[last] - block.begin[first]};
       exec::update_stresses(block, range, strains, 0, dt, settings.integration, part.stress,
                             scheme::waves(scheme, is_elastic(block.model), settings.damping));
+      if (sharing) part.stress.work -= sharing->work();
     }
   });
   books.work_stress = books.stress.work;

@@ -53,6 +53,7 @@ struct Scheme {
   bool affine = false;                                        ///< points carry C_p
   bool middle = false;           ///< strain and spin of the middle of the step, of second order
   bool mean_dilatation = false;  ///< in full quadrilaterals, hexahedra and cells the volume strain is their mean
+  bool shares_gaps = false;      ///< what points of an element have opened they share (exec/gap_sharing.hpp)
   double lateness = 0;  ///< η: a point may be so far (in parts of the element) beyond its element and stay in it
   bool smooth = false;  ///< local damping follows the velocity through zero instead of its sign
   bool mends_massless = false;  ///< nodes without mass move with the others of an element
@@ -75,7 +76,7 @@ inline Scheme report_scheme(double flip = 1) {
 /// What all but the report's have of time, strain and elements.
 inline Scheme standard_scheme() {
   Scheme s;
-  s.middle = s.mean_dilatation = s.smooth = s.mends_massless = true;
+  s.middle = s.mean_dilatation = s.shares_gaps = s.smooth = s.mends_massless = true;
   s.wall = WallRule::by_motion;
   s.lateness = 0.02;
   s.damping = {};
@@ -124,7 +125,7 @@ inline double direction(const Scheme& s, double v, double a_dt) {
 inline exec::WaveSettings waves(const Scheme& s, bool elastic, double local_damping = 0) {
   double highest2 = s.two_terms ? 32.0 / 27.0 : 1.0;
   if (s.filters_motion()) highest2 *= 1 + local_damping;
-  return {s.damping.time > 0 ? 0 : s.damping.share_of(elastic), s.damping.time, highest2};
+  return {s.damping.time > 0 ? 0 : s.damping.share_of(elastic), s.damping.time, highest2, s.shares_gaps};
 }
 
 }  // namespace scheme
