@@ -116,7 +116,7 @@ TEST(Slope, LeftAloneTenTimesAsLongItStandsAndItsStructureIsWhole) {
   const std::string alone =
       "stage=[{ name = 'at rest', duration = 30.0, damping = 0.7, rest = { unbalanced = 1e-3, kinetic = 1e-6, hold = "
       "0.2 "
-      "} }, { name = 'alone', duration = 30.0, zero_displacement = true }]";
+      "} }, { name = 'cut', duration = 30.0, zero_displacement = true }]";
   const auto slope = run_slope("alone", {alone, "output.every=30.0"});
   expect_accounts_in_order(slope);
   const auto& stage = slope.summary["stages"][1];
