@@ -1,6 +1,8 @@
 // Steps 2, 3 and 5 at the nodes.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <type_traits>
 
 #include "scarp/exec/parallel.hpp"
 #include "scarp/step/phases.hpp"
@@ -53,13 +55,11 @@ template <int Dim>
   }
 }
 
-/// Books the work of forces on node n that are no part of the body's own, in some of its components, on the path that
-/// these make.
 template <int Dim>
-void book_work(Body<Dim>& body, int n, const StepSettings& settings, unsigned components, const Vec<Dim>& path,
-               StepBooks<Dim>& books) {
+[[gnu::noinline]] void book_work_of_others(Body<Dim>& body, int n, const StepSettings& settings, unsigned components,
+                                           const Vec<Dim>& path, StepBooks<Dim>& books) {
   const Node<Dim>& node = body.buffers.node[n];
-  if (is_resisted(body, n, settings.damping)) [[unlikely]] {
+  if (is_resisted(body, n, settings.damping)) {
     const auto& resistance = body.buffers.resistance[n];
     for (int j = 0; j < Dim; ++j) {
       if (!(components >> j & 1u)) continue;
@@ -67,8 +67,7 @@ void book_work(Body<Dim>& body, int n, const StepSettings& settings, unsigned co
       books.dissipation_friction -= resistance.F_friction[j] * path[j];
     }
   }
-  if (!body.release.active() && !body.sides.active()) [[likely]]
-    return;
+  if (!body.release.active() && !body.sides.active()) return;
   const unsigned set = set_components(body.conditions, settings.scheme.wall, n, node.held) | ~components;
   if (body.release.active()) books.work_release += work_of<Dim>(body.release, n, node.m, set, path);
   if (!body.sides.holds(n)) return;
@@ -76,6 +75,16 @@ void book_work(Body<Dim>& body, int n, const StepSettings& settings, unsigned co
   books.work_boundary += work.held;
   books.dissipation_absorbing += work.dashpot;
   books.stored_sides += work.spring;
+}
+
+/// Books the work of forces on node n that are no part of the body's own, in some of its components, on the path that
+/// these make.
+template <int Dim>
+void book_work(Body<Dim>& body, int n, const StepSettings& settings, unsigned components, const Vec<Dim>& path,
+               StepBooks<Dim>& books) {
+  if (!is_resisted(body, n, settings.damping) && !body.release.active() && !body.sides.active()) [[likely]]
+    return;
+  book_work_of_others<Dim>(body, n, settings, components, path, books);
 }
 constexpr unsigned all_components = ~0u;
 
@@ -176,20 +185,29 @@ void accelerate_nodes(Body<Dim>& body, double dt, const StepSettings& settings, 
   });
 }
 
+/// What is held is no part of P: filter_changes and filter_displacements find it as it was.
 template <int Dim>
 void filter_changes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
   const double phi = settings.scheme.kept(dt);
   for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>&) {
     with_sums<2 * Dim>(body, first, last, [&](const Node<Dim>& node, int n, const auto& M_w) {
       auto& motion = body.buffers.motion[n];
-      auto& a_dt = body.buffers.a_dt[n];
-      auto& half_path = body.buffers.half_path[n];
+      Vec<Dim> a_dt, v_next;
       for (int j = 0; j < Dim; ++j) {
-        const bool held = (node.held >> j & 1u) != 0;
-        const double v_next = scheme::filtered(motion.du(j), M_w[Dim + j], node.per_mass, held);
-        if (!held) a_dt[j] = scheme::filtered(motion.dv(j), M_w[j], node.per_mass, held);
-        half_path[j] = 0.5 * (v_next - a_dt[j]) * dt;
-        motion.dv(j) = scheme::change_of_velocity(phi, a_dt[j], 1, v_next);
+        a_dt[j] = scheme::filtered(motion.dv(j), M_w[j], node.per_mass);
+        v_next[j] = scheme::filtered(motion.du(j), M_w[Dim + j], node.per_mass);
+      }
+      if (node.held != 0) [[unlikely]] {
+        for (int j = 0; j < Dim; ++j) {
+          if (!(node.held >> j & 1u)) continue;
+          a_dt[j] = body.buffers.a_dt[n][j];
+          v_next[j] = motion.du(j);
+        }
+      }
+      for (int j = 0; j < Dim; ++j) {
+        body.buffers.half_path[n][j] = 0.5 * (v_next[j] - a_dt[j]) * dt;
+        motion.dv(j) = scheme::change_of_velocity(phi, a_dt[j], 1, v_next[j]);
+        motion.du(j) = a_dt[j];  // until there is du: its product with M is part of the books of PIC
       }
     });
   });
@@ -198,34 +216,51 @@ void filter_changes(Body<Dim>& body, double dt, const StepSettings& settings, St
 /// Forces at nodes work on ½ (v^t + v^{t+dt}), with P before it in a scheme of two terms: with that the change of the
 /// points' kinetic energy is theirs to the last bit. Gravity works on the points' displacements:
 /// Σ m_p du_p = Σ m_n du_n.
+/// What PIC takes is Σ ½ m_p (|v_p^FLIP|² − |v_p^{t+dt}|²). With v_p^FLIP = v_p^t + Σ a_i dt N_i its first part is, in
+/// a scheme of two terms with P a for a, Σ ½ m_p |v_p^t|² + Σ (p_i + ½ M_ij a_j dt) · a_i dt: what is summed here of it
+/// comes to that of step 1, and to that of the points with their new velocities.
 template <int Dim>
 void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
   const Scheme& scheme = settings.scheme;
   const double phi = scheme.kept(dt);
+  const bool filters = scheme.filters_motion(), books_pic = scheme::books_pic_at_nodes(scheme, dt);
   for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>& part) {
     Vec<Dim> m_du{};
-    with_sums<Dim>(body, first, last, [&](const Node<Dim>& node, int n, const auto& dp) {
-      Vec<Dim> v;
-      Vec<Dim> path;
+    double taken = 0;
+    const auto of_node = [&](const Node<Dim>& node, int n, const auto& M_w) {
+      auto& motion = body.buffers.motion[n];
+      Vec<Dim> v, path;
       for (int j = 0; j < Dim; ++j) {
-        v[j] = phi * node.v[j] + dp[j] * node.per_mass;
+        v[j] = phi * node.v[j] + M_w[j] * node.per_mass;
         path[j] = 0.5 * (node.v[j] + v[j]) * dt;
+      }
+      if constexpr (std::tuple_size_v<std::decay_t<decltype(M_w)>> >= 2 * Dim) {
+        if (books_pic) {
+          for (int j = 0; j < Dim; ++j) taken += (node.m * node.v[j] + 0.5 * M_w[Dim + j]) * motion.du(j);
+        }
       }
       // The others: of a scheme of two terms on P v, below; of one whose points take the velocity before, on that.
       const unsigned here = scheme.affine ? 0 : scheme.two_terms ? node.held : all_components;
-      book_work<Dim>(body, n, settings, here, path, part);
+      if (here != 0) book_work<Dim>(body, n, settings, here, path, part);
       if (is_resisted(body, n, settings.damping)) [[unlikely]]
         constrain_velocity<Dim>(body.conditions, scheme.wall, n, node.held, v);
-      auto& motion = body.buffers.motion[n];
-      for (int j = 0; j < Dim; ++j) {
-        motion.du(j) = v[j] * dt;
-        m_du[j] += node.m * motion.du(j);
-        if (!scheme.filters_motion() || !(node.held >> j & 1u)) continue;
-        body.buffers.half_path[n][j] = motion.du(j);  // what is held is no part of P; kept aside
-        motion.du(j) = 0;
+      for (int j = 0; j < Dim; ++j) motion.du(j) = v[j] * dt;
+      if (!filters) {
+        for (int j = 0; j < Dim; ++j) m_du[j] += node.m * motion.du(j);
+      } else if (node.held != 0) [[unlikely]] {
+        for (int j = 0; j < Dim; ++j) {
+          if (!(node.held >> j & 1u)) continue;
+          body.buffers.half_path[n][j] = motion.du(j);  // kept aside
+          motion.du(j) = 0;
+        }
       }
-    });
-    if (scheme.filters_motion()) return;
+    };
+    if (scheme.two_terms) {
+      with_sums<2 * Dim>(body, first, last, of_node);
+    } else {
+      with_sums<Dim>(body, first, last, of_node);
+    }
+    part.dissipation_pic += taken;
     for (int j = 0; j < Dim; ++j) part.work_gravity += m_du[j] * body.gravity[j];
   });
 }
@@ -234,15 +269,17 @@ template <int Dim>
 void filter_displacements(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books) {
   for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>& part) {
     Vec<Dim> m_du{};
-    with_sums<Dim>(body, first, last, [&](const Node<Dim>& node, int n, const auto& M_w) {
+    with_sums<2 * Dim>(body, first, last, [&](const Node<Dim>& node, int n, const auto& M_w) {
       auto& motion = body.buffers.motion[n];
+      const Vec<Dim>& aside = body.buffers.half_path[n];
       Vec<Dim> du, path;
-      for (int j = 0; j < Dim; ++j) {
-        const bool held = (node.held >> j & 1u) != 0;
-        const double aside = body.buffers.half_path[n][j];
-        du[j] = scheme::filtered(held ? aside : motion.du(j), M_w[j], node.per_mass, held);
-        path[j] = aside + 0.5 * du[j];
+      for (int j = 0; j < Dim; ++j) du[j] = scheme::filtered(motion.du(j), M_w[Dim + j], node.per_mass);
+      if (node.held != 0) [[unlikely]] {
+        for (int j = 0; j < Dim; ++j) {
+          if (node.held >> j & 1u) du[j] = aside[j];
+        }
       }
+      for (int j = 0; j < Dim; ++j) path[j] = aside[j] + 0.5 * du[j];
       if (settings.scheme.two_terms) book_work<Dim>(body, n, settings, ~static_cast<unsigned>(node.held), path, part);
       if (is_resisted(body, n, settings.damping)) [[unlikely]]
         constrain_velocity<Dim>(body.conditions, settings.scheme.wall, n, node.held, du);
