@@ -13,6 +13,16 @@ namespace {
 
 constexpr int node_chunk = 256;
 
+/// a b + c, in one rounding where the processor has that: what of the report's scheme would else be rounded as the
+/// compiler sees fit.
+inline double fused(double a, double b, double c) {
+#if defined(__FMA__)
+  return std::fma(a, b, c);
+#else
+  return a * b + c;
+#endif
+}
+
 /// f(first, last, part) for chunks of the active nodes.
 template <int Dim, class F>
 void for_each_chunk(Body<Dim>& body, StepBooks<Dim>& books, F&& f) {
@@ -25,11 +35,20 @@ bool is_resisted(const Body<Dim>& body, int n, double damping) {
   return damping != 0 || !is_free(body.conditions, n) || body.sides.holds(n);
 }
 
+// What few nodes need is not inlined, and takes and returns vectors by value: those of the other nodes stay in
+// registers.
+
+template <int Dim>
+struct ForceAndAcceleration {
+  Vec<Dim> F, a;
+};
+
 /// Local damping of the force F against the motion, and the conditions: changes a = F / m, notes what is held and the
 /// resistance; F becomes what of it is not balanced.
 template <int Dim>
-[[gnu::noinline]] void resist(Body<Dim>& body, int n, double dt, const StepSettings& settings, Vec<Dim>& F,
-                              Vec<Dim>& a) {
+[[gnu::noinline]] ForceAndAcceleration<Dim> resisted_by(Body<Dim>& body, int n, double dt, const StepSettings& settings,
+                                                        ForceAndAcceleration<Dim> of) {
+  auto& [F, a] = of;
   const double damping = settings.damping;
   // A wall takes the force along its normal: none of it is out of balance, and friction must not feel it damped.
   const bool pressed = settings.scheme.wall == WallRule::by_motion &&
@@ -53,11 +72,19 @@ template <int Dim>
     if (node.held & (1u << j)) resistance.F_damping[j] = 0;
     F[j] = node.held & (1u << j) ? 0 : node.m * a[j] - resistance.F_damping[j];
   }
+  return of;
+}
+
+/// The conditions on a velocity, or a displacement, of node n.
+template <int Dim>
+[[gnu::noinline]] Vec<Dim> constrained(const Body<Dim>& body, int n, const Scheme& scheme, Vec<Dim> v) {
+  constrain_velocity<Dim>(body.conditions, scheme.wall, n, body.buffers.node[n].held, v);
+  return v;
 }
 
 template <int Dim>
 [[gnu::noinline]] void book_work_of_others(Body<Dim>& body, int n, const StepSettings& settings, unsigned components,
-                                           const Vec<Dim>& path, StepBooks<Dim>& books) {
+                                           Vec<Dim> path, StepBooks<Dim>& books) {
   const Node<Dim>& node = body.buffers.node[n];
   if (is_resisted(body, n, settings.damping)) {
     const auto& resistance = body.buffers.resistance[n];
@@ -126,17 +153,21 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
     a[j] = F[j] * per_mass;
   }
   const bool resisted = is_resisted(body, n, settings.damping);
-  if (resisted) [[unlikely]]
-    resist<Dim>(body, n, dt, settings, F, a);
+  if (resisted) [[unlikely]] {
+    const auto left = resisted_by<Dim>(body, n, dt, settings, {F, a});
+    F = left.F;
+    a = left.a;
+  }
   auto& motion = body.buffers.motion[n];
   for (int j = 0; j < Dim; ++j) motion.dv(j) = a[j] * dt;
   if (scheme.flip == 1 && !scheme.two_terms) return F;
   Vec<Dim> v_next;
   for (int j = 0; j < Dim; ++j) {
     body.buffers.a_dt[n][j] = a[j] * dt;
-    v_next[j] = node.v[j] + a[j] * dt;
+    v_next[j] = fused(a[j], dt, node.v[j]);
   }
-  if (resisted) constrain_velocity<Dim>(body.conditions, settings.scheme.wall, n, node.held, v_next);
+  if (resisted) [[unlikely]]
+    v_next = constrained<Dim>(body, n, scheme, v_next);
   if (scheme.affine) {
     take_velocity<Dim>(body, n, v_next, dt, settings, books);
   } else if (scheme.two_terms) {
@@ -243,7 +274,7 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
       const unsigned here = scheme.affine ? 0 : scheme.two_terms ? node.held : all_components;
       if (here != 0) book_work<Dim>(body, n, settings, here, path, part);
       if (is_resisted(body, n, settings.damping)) [[unlikely]]
-        constrain_velocity<Dim>(body.conditions, scheme.wall, n, node.held, v);
+        v = constrained<Dim>(body, n, scheme, v);
       for (int j = 0; j < Dim; ++j) motion.du(j) = v[j] * dt;
       if (!filters) {
         for (int j = 0; j < Dim; ++j) m_du[j] += node.m * motion.du(j);
@@ -282,7 +313,7 @@ void filter_displacements(Body<Dim>& body, const StepSettings& settings, StepBoo
       for (int j = 0; j < Dim; ++j) path[j] = aside[j] + 0.5 * du[j];
       if (settings.scheme.two_terms) book_work<Dim>(body, n, settings, ~static_cast<unsigned>(node.held), path, part);
       if (is_resisted(body, n, settings.damping)) [[unlikely]]
-        constrain_velocity<Dim>(body.conditions, settings.scheme.wall, n, node.held, du);
+        du = constrained<Dim>(body, n, settings.scheme, du);
       for (int j = 0; j < Dim; ++j) {
         motion.du(j) = du[j];
         m_du[j] += node.m * du[j];
