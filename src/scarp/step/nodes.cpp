@@ -109,9 +109,8 @@ template <int Dim>
 template <int Dim>
 void book_work(Body<Dim>& body, int n, const StepSettings& settings, unsigned components, const Vec<Dim>& path,
                StepBooks<Dim>& books) {
-  if (!is_resisted(body, n, settings.damping) && !body.release.active() && !body.sides.active()) [[likely]]
-    return;
-  book_work_of_others<Dim>(body, n, settings, components, path, books);
+  if (body.buffers.node[n].acted_on) [[unlikely]]
+    book_work_of_others<Dim>(body, n, settings, components, path, books);
 }
 constexpr unsigned all_components = ~0u;
 
@@ -153,6 +152,7 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
     a[j] = F[j] * per_mass;
   }
   const bool resisted = is_resisted(body, n, settings.damping);
+  node.acted_on = resisted || body.release.active() || body.sides.active();
   if (resisted) [[unlikely]] {
     const auto left = resisted_by<Dim>(body, n, dt, settings, {F, a});
     F = left.F;
@@ -162,21 +162,25 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
   for (int j = 0; j < Dim; ++j) motion.dv(j) = a[j] * dt;
   if (scheme.flip == 1 && !scheme.two_terms) return F;
   Vec<Dim> v_next;
-  for (int j = 0; j < Dim; ++j) {
-    body.buffers.a_dt[n][j] = a[j] * dt;
-    v_next[j] = fused(a[j], dt, node.v[j]);
-  }
+  for (int j = 0; j < Dim; ++j) v_next[j] = fused(a[j], dt, node.v[j]);
   if (resisted) [[unlikely]]
     v_next = constrained<Dim>(body, n, scheme, v_next);
   if (scheme.affine) {
     take_velocity<Dim>(body, n, v_next, dt, settings, books);
   } else if (scheme.two_terms) {
-    for (int j = 0; j < Dim; ++j) {
-      if (node.held & (1u << j)) motion.dv(j) = 0;  // what holds a node is no part of P
-      motion.du(j) = v_next[j];
+    for (int j = 0; j < Dim; ++j) motion.du(j) = v_next[j];
+    if (node.held != 0) [[unlikely]] {
+      for (int j = 0; j < Dim; ++j) {
+        if (!(node.held >> j & 1u)) continue;
+        body.buffers.a_dt[n][j] = a[j] * dt;
+        motion.dv(j) = 0;  // what holds a node is no part of P
+      }
     }
   } else {
-    for (int j = 0; j < Dim; ++j) motion.dv(j) = scheme::change_of_velocity(scheme.flip, a[j], dt, v_next[j]);
+    for (int j = 0; j < Dim; ++j) {
+      body.buffers.a_dt[n][j] = a[j] * dt;
+      motion.dv(j) = scheme::change_of_velocity(scheme.flip, a[j], dt, v_next[j]);
+    }
   }
   return F;
 }
@@ -236,9 +240,11 @@ void filter_changes(Body<Dim>& body, double dt, const StepSettings& settings, St
         }
       }
       for (int j = 0; j < Dim; ++j) {
-        body.buffers.half_path[n][j] = 0.5 * (v_next[j] - a_dt[j]) * dt;
         motion.dv(j) = scheme::change_of_velocity(phi, a_dt[j], 1, v_next[j]);
         motion.du(j) = a_dt[j];  // until there is du: its product with M is part of the books of PIC
+      }
+      if (node.acted_on) [[unlikely]] {
+        for (int j = 0; j < Dim; ++j) body.buffers.half_path[n][j] = 0.5 * (v_next[j] - a_dt[j]) * dt;
       }
     });
   });
@@ -273,7 +279,7 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
       // The others: of a scheme of two terms on P v, below; of one whose points take the velocity before, on that.
       const unsigned here = scheme.affine ? 0 : scheme.two_terms ? node.held : all_components;
       if (here != 0) book_work<Dim>(body, n, settings, here, path, part);
-      if (is_resisted(body, n, settings.damping)) [[unlikely]]
+      if (node.acted_on && is_resisted(body, n, settings.damping)) [[unlikely]]
         v = constrained<Dim>(body, n, scheme, v);
       for (int j = 0; j < Dim; ++j) motion.du(j) = v[j] * dt;
       if (!filters) {
@@ -296,24 +302,32 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
   });
 }
 
+/// du = P v dt of a node that is acted on, from what it is without conditions; books the work of what acts on it.
+template <int Dim>
+[[gnu::noinline]] Vec<Dim> displacement_of_others(Body<Dim>& body, int n, const StepSettings& settings, Vec<Dim> du,
+                                                  StepBooks<Dim>& books) {
+  const Vec<Dim>& aside = body.buffers.half_path[n];
+  const unsigned held = body.buffers.node[n].held;
+  Vec<Dim> path;
+  for (int j = 0; j < Dim; ++j) {
+    if (held >> j & 1u) du[j] = aside[j];
+    path[j] = aside[j] + 0.5 * du[j];
+  }
+  if (settings.scheme.two_terms) book_work_of_others<Dim>(body, n, settings, ~held, path, books);
+  if (is_resisted(body, n, settings.damping)) du = constrained<Dim>(body, n, settings.scheme, du);
+  return du;
+}
+
 template <int Dim>
 void filter_displacements(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books) {
   for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>& part) {
     Vec<Dim> m_du{};
     with_sums<2 * Dim>(body, first, last, [&](const Node<Dim>& node, int n, const auto& M_w) {
       auto& motion = body.buffers.motion[n];
-      const Vec<Dim>& aside = body.buffers.half_path[n];
-      Vec<Dim> du, path;
+      Vec<Dim> du;
       for (int j = 0; j < Dim; ++j) du[j] = scheme::filtered(motion.du(j), M_w[Dim + j], node.per_mass);
-      if (node.held != 0) [[unlikely]] {
-        for (int j = 0; j < Dim; ++j) {
-          if (node.held >> j & 1u) du[j] = aside[j];
-        }
-      }
-      for (int j = 0; j < Dim; ++j) path[j] = aside[j] + 0.5 * du[j];
-      if (settings.scheme.two_terms) book_work<Dim>(body, n, settings, ~static_cast<unsigned>(node.held), path, part);
-      if (is_resisted(body, n, settings.damping)) [[unlikely]]
-        du = constrained<Dim>(body, n, settings.scheme, du);
+      if (node.acted_on) [[unlikely]]
+        du = displacement_of_others<Dim>(body, n, settings, du, part);
       for (int j = 0; j < Dim; ++j) {
         motion.du(j) = du[j];
         m_du[j] += node.m * du[j];
