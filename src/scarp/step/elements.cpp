@@ -264,9 +264,10 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
     body.buffers.left[slot] = 1;
 }
 
+/// Of a chunk of elements. Inlined it has not all registers.
 template <bool pic, int Dim>
-void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, const MoveRules& rules,
-                     Strains<Dim>& strains, StepBooks<Dim>& books) {
+[[gnu::noinline]] void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, const MoveRules& rules,
+                                       Strains<Dim>& strains, StepBooks<Dim>& books) {
   MotionBooks<Dim> motion;
   for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
     move_points<pic, Basis>(body, block, slot, e, rules, strains, block.begin[slot] - block.begin[first], motion,
