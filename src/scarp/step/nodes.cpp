@@ -1,8 +1,8 @@
 // Steps 2, 3 and 5 at the nodes.
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <tuple>
-#include <type_traits>
+#include <cstddef>
 
 #include "scarp/exec/parallel.hpp"
 #include "scarp/step/phases.hpp"
@@ -250,12 +250,32 @@ void filter_changes(Body<Dim>& body, double dt, const StepSettings& settings, St
   });
 }
 
+/// What PIC takes is Σ ½ m_p (|v_p^FLIP|² − |v_p^{t+dt}|²). With v_p^FLIP = v_p^t + Σ a_i dt N_i its first part is, in
+/// a scheme of two terms with P a for a, Σ ½ m_p |v_p^t|² + Σ (p_i + ½ M_ij a_j dt) · a_i dt: this term of a node comes
+/// to the sum of step 1, and to that over the points with their new velocities.
+template <int Dim, std::size_t n>
+double energy_of_flip(const Node<Dim>& node, const transfer::Motion<Dim>& motion, const std::array<double, n>& M_w) {
+  double sum = 0;
+  if constexpr (n >= 2 * Dim) {
+    for (int j = 0; j < Dim; ++j) sum += (node.m * node.v[j] + 0.5 * M_w[Dim + j]) * motion.du(j);
+  }
+  return sum;
+}
+
+/// The du of held components: no part of P.
+template <int Dim>
+void keep_aside(Body<Dim>& body, int n) {
+  auto& motion = body.buffers.motion[n];
+  for (int j = 0; j < Dim; ++j) {
+    if (!(body.buffers.node[n].held >> j & 1u)) continue;
+    body.buffers.half_path[n][j] = motion.du(j);
+    motion.du(j) = 0;
+  }
+}
+
 /// Forces at nodes work on ½ (v^t + v^{t+dt}), with P before it in a scheme of two terms: with that the change of the
 /// points' kinetic energy is theirs to the last bit. Gravity works on the points' displacements:
 /// Σ m_p du_p = Σ m_n du_n.
-/// What PIC takes is Σ ½ m_p (|v_p^FLIP|² − |v_p^{t+dt}|²). With v_p^FLIP = v_p^t + Σ a_i dt N_i its first part is, in
-/// a scheme of two terms with P a for a, Σ ½ m_p |v_p^t|² + Σ (p_i + ½ M_ij a_j dt) · a_i dt: what is summed here of it
-/// comes to that of step 1, and to that of the points with their new velocities.
 template <int Dim>
 void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
   const Scheme& scheme = settings.scheme;
@@ -271,11 +291,7 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
         v[j] = phi * node.v[j] + M_w[j] * node.per_mass;
         path[j] = 0.5 * (node.v[j] + v[j]) * dt;
       }
-      if constexpr (std::tuple_size_v<std::decay_t<decltype(M_w)>> >= 2 * Dim) {
-        if (books_pic) {
-          for (int j = 0; j < Dim; ++j) taken += (node.m * node.v[j] + 0.5 * M_w[Dim + j]) * motion.du(j);
-        }
-      }
+      if (books_pic) taken += energy_of_flip(node, motion, M_w);
       // The others: of a scheme of two terms on P v, below; of one whose points take the velocity before, on that.
       const unsigned here = scheme.affine ? 0 : scheme.two_terms ? node.held : all_components;
       if (here != 0) book_work<Dim>(body, n, settings, here, path, part);
@@ -285,11 +301,7 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
       if (!filters) {
         for (int j = 0; j < Dim; ++j) m_du[j] += node.m * motion.du(j);
       } else if (node.held != 0) [[unlikely]] {
-        for (int j = 0; j < Dim; ++j) {
-          if (!(node.held >> j & 1u)) continue;
-          body.buffers.half_path[n][j] = motion.du(j);  // kept aside
-          motion.du(j) = 0;
-        }
+        keep_aside<Dim>(body, n);
       }
     };
     if (scheme.two_terms) {
