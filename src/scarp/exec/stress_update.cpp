@@ -32,6 +32,7 @@ class Update {
         settings_(settings),
         waves_(waves),
         damped_(waves.damped()),
+        per_limit2_(waves.per_limit2(1.0)),
         books_(books) {}
 
   void operator()(PointRange range, int at) {
@@ -68,7 +69,10 @@ class Update {
 
     const unsigned present = first_bits(p.count()), done = bits_of(good) & present;
     Batch damping(0.0);
-    if (damped_) damping = look_ahead(p, old.sigma, turned.sigma, trial, good, deps, at);
+    if (damped_) {
+      damping = p.whole() ? look_ahead(WholeLanes<Batch>(p.point(0)), old.sigma, turned.sigma, trial, good, deps, at)
+                          : look_ahead(p, old.sigma, turned.sigma, trial, good, deps, at);
+    }
     const Batch work = increment(strains_.volume, at) * Batch(0.5) * dot(turned.sigma + trial.state.sigma, deps);
     const Batch modulus = model_.p_wave_modulus(trial.state);
     const auto stiff = modulus > Batch(0.0);
@@ -215,8 +219,8 @@ class Update {
   /// The square of c/(k h) + |v|/h: its inverse is the time that a compression wave (with the factor k of the scheme)
   /// and the point itself need to cross the point's element.
   Batch crossing_rate2(const Batch& modulus, int at) const {
-    const Batch rate2 = modulus * increment(strains_.per_mass, at), c2 = rate2 * waves_.per_limit2(rate2),
-                v2 = increment(strains_.speed2, at);
+    const Batch rate2 = modulus * increment(strains_.per_mass, at), v2 = increment(strains_.speed2, at);
+    const Batch c2 = rate2 * (waves_.time > 0 ? waves_.per_limit2(rate2) : Batch(per_limit2_));
     return c2 + v2 + Batch(2.0) * sqrt(c2 * v2);
   }
   void bound_time_step(double modulus, int at) {
@@ -240,6 +244,9 @@ class Update {
     const auto at = static_cast<std::size_t>(std::min(i, block_.size() - 1));
     for (const auto& column : points_.sigma) __builtin_prefetch(column.data() + at, 1);
     for (const auto& column : block_.state) __builtin_prefetch(column.data() + at, 1);
+    for (const auto& column : points_.sigma_ahead) {
+      if (!column.empty()) __builtin_prefetch(column.data() + at, 1);
+    }
     __builtin_prefetch(points_.eps_q.data() + at, 1);
   }
 
@@ -309,6 +316,7 @@ class Update {
   const IntegrationSettings& settings_;
   const WaveSettings& waves_;
   bool damped_;
+  double per_limit2_;  ///< 1/k², where that is the same for all points
   StressBooks& books_;
   std::array<Straggler, 64> stragglers_;
   int straggler_count_ = 0;

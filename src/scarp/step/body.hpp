@@ -25,6 +25,7 @@ struct Node {
   double per_mass = 0;    ///< 1 / m
   Vec<Dim> v{};           ///< v^t
   std::uint8_t held = 0;  ///< bit j set where the conditions hold component j
+  bool acted_on = false;  ///< by conditions, damping, a side, or what holds an imbalance back?
 };
 
 /// Forces on a node that take energy from the body.
@@ -53,8 +54,9 @@ struct Buffers {
   // Of every node of the mesh, valid for active ones:
   std::vector<Node<Dim>> node;
   std::vector<transfer::Motion<Dim>> motion;
-  std::vector<Vec<Dim>> a_dt;       ///< a dt; where there is a PIC share
-  std::vector<Vec<Dim>> half_path;  ///< with P: ½ P v^t dt, half of what forces work on; of a held component its du
+  std::vector<Vec<Dim>> a_dt;  ///< a dt; where there is a PIC share, with P of held components only
+  std::vector<Vec<Dim>>
+      half_path;  ///< with P, of nodes acted on: ½ P v^t dt, half of what forces work on; of a held component its du
   std::vector<Resistance<Dim>> resistance;  ///< with damping, and where nodes are not free
   std::vector<Strains<Dim>> strains;        ///< of each thread
   std::vector<StepBooks<Dim>> books;        ///< of each chunk

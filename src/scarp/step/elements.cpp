@@ -31,21 +31,10 @@ PointRange points_of(const Block<Dim>& block, int slot) {
   return {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]};
 }
 
-/// Σ Ω_p over the points of an element, as its sums have it.
-template <class Basis>
-double volume_of_points(const Body<Basis::dim>& body, int slot) {
-  using T = PointBatch<Basis::dim>;
-  T Omega(0.0);
-  for (const auto& block : body.blocks) {
-    for_each_batch_of_element<T>(points_of(block, slot),
-                                 [&](const auto& p, int) { Omega += p.load(block.points.volume); });
-  }
-  return xsimd::hadd(Omega);
-}
-
+/// Step 1 in an element; adds Σ m_p |v_p|² of its points to m_v2.
 template <class Basis, class Places>
 SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, const Places& places, const StepSettings& settings, int slot,
-                              int e) {
+                              int e, PointBatch<Basis::dim>& m_v2) {
   auto& buffers = body.buffers;
   const typename Basis::Cell cell(*body.mesh, e);
   const transfer::ShapesAtPoints<Basis> shapes(cell);
@@ -53,15 +42,19 @@ SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, const Places& places, cons
   bool mean_dilatation = false;
   if constexpr (Basis::corrects) {
     if (settings.quadrature == Quadrature::corrected && buffers.inside[slot]) means.emplace(cell);
-    if constexpr (transfer::has_shift<Basis>) {
-      mean_dilatation =
-          means && settings.scheme.mean_dilatation && transfer::fills(volume_of_points<Basis>(body, slot), *means);
-    }
+    if constexpr (transfer::has_shift<Basis>) mean_dilatation = means && settings.scheme.mean_dilatation;
   }
   transfer::ElementSums<Basis> sums;
-  for (const auto& block : body.blocks) {
-    transfer::points_to_nodes<Basis>(shapes, places, block.points, points_of(block, slot), mean_dilatation, sums);
+  for (;;) {
+    for (const auto& block : body.blocks) {
+      transfer::points_to_nodes<Basis>(shapes, places, block.points, points_of(block, slot), mean_dilatation, sums);
+    }
+    if (!mean_dilatation || transfer::fills(xsimd::hadd(sums.Omega), *means)) [[likely]]
+      break;
+    mean_dilatation = false;  // few elements inside the soil are not full: they are summed up once more
+    sums = {};
   }
+  m_v2 += sums.m_v2;
   transfer::Quadrature<Basis> quadrature;
   if constexpr (Basis::corrects) {
     const double volume = xsimd::hadd(sums.Omega);
@@ -93,19 +86,21 @@ transfer::NodeRows<Basis> motion_of_nodes(const Body<Basis::dim>& body, int e, i
   return rows;
 }
 
-/// Σ_j M_ij w_j of n components w of the nodes' Motion, from `from` on.
+/// Σ_j M_ij w_j of the first n components w of the nodes' Motion, of all of them those from `from` on, in an element
+/// that does not keep M_ij.
 template <class Basis, int n>
-SCARP_FLATTEN void add_momentum(Body<Basis::dim>& body, int slot, int e, int from) {
-  const auto rows = motion_of_nodes<Basis>(body, e, from);
+SCARP_FLATTEN void add_momentum_of_points(Body<Basis::dim>& body, int slot, int e, int from) {
+  constexpr int Dim = Basis::dim, size = transfer::place_size<n>;
+  const typename Basis::Cell cell(*body.mesh, e);
   const int* places = body.assembly.places_of(slot);
   double* momentum = body.buffers.momentum.data();
-  if constexpr (transfer::keeps_mass_matrix<Basis>) {
-    transfer::add_momentum<Basis, n>(body.buffers.mass_matrix.data() + slot * mass_matrix_row(body.assembly.row()),
-                                     rows, places, momentum);
-  } else {
-    const typename Basis::Cell cell(*body.mesh, e);
-    for (const auto& block : body.blocks) {
-      transfer::add_momentum<Basis, n>(cell, block.points, points_of(block, slot), rows, places, momentum);
+  const auto rows = motion_of_nodes<Basis>(body, e, from);
+  for (const auto& block : body.blocks) {
+    const PointRange range = points_of(block, slot);
+    if (from == 0) {
+      transfer::add_momentum<Basis, n, size, 0>(cell, block.points, range, rows, places, momentum);
+    } else {
+      transfer::add_momentum<Basis, Dim, size, n - Dim>(cell, block.points, range, rows, places, momentum);
     }
   }
 }
@@ -270,9 +265,10 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
     body.buffers.left[slot] = 1;
 }
 
+/// Of a chunk of elements. Inlined it has not all registers.
 template <bool pic, int Dim>
-void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, const MoveRules& rules,
-                     Strains<Dim>& strains, exec::GapSharing<Dim>* sharing, StepBooks<Dim>& books) {
+[[gnu::noinline]] void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, const MoveRules& rules,
+                                       Strains<Dim>& strains, exec::GapSharing<Dim>* sharing, StepBooks<Dim>& books) {
   MotionBooks<Dim> motion;
   for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
     const int at = block.begin[slot] - block.begin[first];
@@ -309,15 +305,17 @@ void prepare_columns(Body<Dim>& body, const Scheme& scheme) {
 template <int Dim>
 void map_points_to_elements(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books) {
   prepare_columns(body, settings.scheme);
-  for_each_chunk(body, body.assembly.chunk(), books, [&](int first, int last, StepBooks<Dim>&) {
+  for_each_chunk(body, body.assembly.chunk(), books, [&](int first, int last, StepBooks<Dim>& part) {
+    PointBatch<Dim> m_v2(0.0);
     clear_places(body, first, body.buffers.sums, transfer::node_sums<Dim>);
     for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
       if (settings.scheme.affine) {
-        sum_points<Basis>(body, transfer::NodePlaces<Basis>(*body.mesh, e), settings, slot, e);
+        sum_points<Basis>(body, transfer::NodePlaces<Basis>(*body.mesh, e), settings, slot, e, m_v2);
       } else {
-        sum_points<Basis>(body, transfer::NoPlaces{}, settings, slot, e);
+        sum_points<Basis>(body, transfer::NoPlaces{}, settings, slot, e, m_v2);
       }
     });
+    part.kinetic_energy_before = 0.5 * xsimd::hadd(m_v2);
   });
 }
 
@@ -325,8 +323,26 @@ template <int n, int Dim>
 void sum_with_mass_matrix(Body<Dim>& body, int from, StepBooks<Dim>& books) {
   for_each_chunk(body, body.assembly.chunk(), books, [&](int first, int last, StepBooks<Dim>&) {
     clear_places(body, first, body.buffers.momentum, transfer::place_size<n>);
-    for_each_element(body, first, last,
-                     [&]<class Basis>(Basis, int slot, int e) { add_momentum<Basis, n>(body, slot, e, from); });
+    const Mesh<Dim>& mesh = *body.mesh;
+    const transfer::Motion<Dim>* motion = body.buffers.motion.data();
+    const double* matrices = body.buffers.mass_matrix.data();
+    const int *places = body.assembly.places_of(0), row = body.assembly.row();
+    const std::size_t size = mass_matrix_row(row);
+    double* momentum = body.buffers.momentum.data();
+    for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
+      if constexpr (transfer::keeps_mass_matrix<Basis>) {
+        const double* M = matrices + slot * size;
+        const int* n_i = mesh.element_nodes(e).data();
+        const auto w = make_array<Basis::nodes>([&](auto i) { return motion[n_i[i]].row.data(); });
+        if constexpr (n == Dim) {
+          transfer::add_momentum<Basis, n>(M, w, places + slot * row, momentum);
+        } else {
+          transfer::add_products<Basis>(M, w, places + slot * row, momentum);
+        }
+      } else {
+        add_momentum_of_points<Basis, n>(body, slot, e, from);
+      }
+    });
   });
 }
 
@@ -343,7 +359,7 @@ void strain_stress_and_motion(Body<Dim>& body, double dt, const StepSettings& se
       auto* sharing = scheme.shares_gaps && gaps.active() ? &gaps : nullptr;
       {
         const Stopwatch<Dim> watch(settings.profile, part, Phase::strain_and_move);
-        if (rules.motion.flip == 1) {
+        if (rules.motion.flip == 1 || scheme.two_terms) {
           strain_and_move<false>(body, block, first, last, rules, strains, sharing, part);
         } else {
           strain_and_move<true>(body, block, first, last, rules, strains, sharing, part);
@@ -356,6 +372,9 @@ void strain_stress_and_motion(Body<Dim>& body, double dt, const StepSettings& se
       if (sharing) part.stress.work -= sharing->work();
     }
   });
+  if (scheme::books_pic_at_nodes(scheme, dt)) {
+    books.dissipation_pic += books.kinetic_energy_before - books.kinetic_energy;
+  }
   books.work_stress = books.stress.work;
   books.dissipation_waves = books.stress.damping;
 }

@@ -1,6 +1,8 @@
 // Steps 2, 3 and 5 at the nodes.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "scarp/exec/parallel.hpp"
 #include "scarp/step/phases.hpp"
@@ -10,6 +12,16 @@ namespace scarp::step {
 namespace {
 
 constexpr int node_chunk = 256;
+
+/// a b + c, in one rounding where the processor has that: what of the report's scheme would else be rounded as the
+/// compiler sees fit.
+inline double fused(double a, double b, double c) {
+#if defined(__FMA__)
+  return std::fma(a, b, c);
+#else
+  return a * b + c;
+#endif
+}
 
 /// f(first, last, part) for chunks of the active nodes.
 template <int Dim, class F>
@@ -23,11 +35,20 @@ bool is_resisted(const Body<Dim>& body, int n, double damping) {
   return damping != 0 || !is_free(body.conditions, n) || body.sides.holds(n);
 }
 
+// What few nodes need is not inlined, and takes and returns vectors by value: those of the other nodes stay in
+// registers.
+
+template <int Dim>
+struct ForceAndAcceleration {
+  Vec<Dim> F, a;
+};
+
 /// Local damping of the force F against the motion, and the conditions: changes a = F / m, notes what is held and the
 /// resistance; F becomes what of it is not balanced.
 template <int Dim>
-[[gnu::noinline]] void resist(Body<Dim>& body, int n, double dt, const StepSettings& settings, Vec<Dim>& F,
-                              Vec<Dim>& a) {
+[[gnu::noinline]] ForceAndAcceleration<Dim> resisted_by(Body<Dim>& body, int n, double dt, const StepSettings& settings,
+                                                        ForceAndAcceleration<Dim> of) {
+  auto& [F, a] = of;
   const double damping = settings.damping;
   // A wall takes the force along its normal: none of it is out of balance, and friction must not feel it damped.
   const bool pressed = settings.scheme.wall == WallRule::by_motion &&
@@ -51,15 +72,21 @@ template <int Dim>
     if (node.held & (1u << j)) resistance.F_damping[j] = 0;
     F[j] = node.held & (1u << j) ? 0 : node.m * a[j] - resistance.F_damping[j];
   }
+  return of;
 }
 
-/// Books the work of forces on node n that are no part of the body's own, in some of its components, on the path that
-/// these make.
+/// The conditions on a velocity, or a displacement, of node n.
 template <int Dim>
-void book_work(Body<Dim>& body, int n, const StepSettings& settings, unsigned components, const Vec<Dim>& path,
-               StepBooks<Dim>& books) {
+[[gnu::noinline]] Vec<Dim> constrained(const Body<Dim>& body, int n, const Scheme& scheme, Vec<Dim> v) {
+  constrain_velocity<Dim>(body.conditions, scheme.wall, n, body.buffers.node[n].held, v);
+  return v;
+}
+
+template <int Dim>
+[[gnu::noinline]] void book_work_of_others(Body<Dim>& body, int n, const StepSettings& settings, unsigned components,
+                                           Vec<Dim> path, StepBooks<Dim>& books) {
   const Node<Dim>& node = body.buffers.node[n];
-  if (is_resisted(body, n, settings.damping)) [[unlikely]] {
+  if (is_resisted(body, n, settings.damping)) {
     const auto& resistance = body.buffers.resistance[n];
     for (int j = 0; j < Dim; ++j) {
       if (!(components >> j & 1u)) continue;
@@ -67,8 +94,7 @@ void book_work(Body<Dim>& body, int n, const StepSettings& settings, unsigned co
       books.dissipation_friction -= resistance.F_friction[j] * path[j];
     }
   }
-  if (!body.release.active() && !body.sides.active()) [[likely]]
-    return;
+  if (!body.release.active() && !body.sides.active()) return;
   const unsigned set = set_components(body.conditions, settings.scheme.wall, n, node.held) | ~components;
   if (body.release.active()) books.work_release += work_of<Dim>(body.release, n, node.m, set, path);
   if (!body.sides.holds(n)) return;
@@ -76,6 +102,15 @@ void book_work(Body<Dim>& body, int n, const StepSettings& settings, unsigned co
   books.work_boundary += work.held;
   books.dissipation_absorbing += work.dashpot;
   books.stored_sides += work.spring;
+}
+
+/// Books the work of forces on node n that are no part of the body's own, in some of its components, on the path that
+/// these make.
+template <int Dim>
+void book_work(Body<Dim>& body, int n, const StepSettings& settings, unsigned components, const Vec<Dim>& path,
+               StepBooks<Dim>& books) {
+  if (body.buffers.node[n].acted_on) [[unlikely]]
+    book_work_of_others<Dim>(body, n, settings, components, path, books);
 }
 constexpr unsigned all_components = ~0u;
 
@@ -117,26 +152,35 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
     a[j] = F[j] * per_mass;
   }
   const bool resisted = is_resisted(body, n, settings.damping);
-  if (resisted) [[unlikely]]
-    resist<Dim>(body, n, dt, settings, F, a);
+  node.acted_on = resisted || body.release.active() || body.sides.active();
+  if (resisted) [[unlikely]] {
+    const auto left = resisted_by<Dim>(body, n, dt, settings, {F, a});
+    F = left.F;
+    a = left.a;
+  }
   auto& motion = body.buffers.motion[n];
   for (int j = 0; j < Dim; ++j) motion.dv(j) = a[j] * dt;
   if (scheme.flip == 1 && !scheme.two_terms) return F;
   Vec<Dim> v_next;
-  for (int j = 0; j < Dim; ++j) {
-    body.buffers.a_dt[n][j] = a[j] * dt;
-    v_next[j] = node.v[j] + a[j] * dt;
-  }
-  if (resisted) constrain_velocity<Dim>(body.conditions, settings.scheme.wall, n, node.held, v_next);
+  for (int j = 0; j < Dim; ++j) v_next[j] = fused(a[j], dt, node.v[j]);
+  if (resisted) [[unlikely]]
+    v_next = constrained<Dim>(body, n, scheme, v_next);
   if (scheme.affine) {
     take_velocity<Dim>(body, n, v_next, dt, settings, books);
   } else if (scheme.two_terms) {
-    for (int j = 0; j < Dim; ++j) {
-      if (node.held & (1u << j)) motion.dv(j) = 0;  // what holds a node is no part of P
-      motion.du(j) = v_next[j];
+    for (int j = 0; j < Dim; ++j) motion.du(j) = v_next[j];
+    if (node.held != 0) [[unlikely]] {
+      for (int j = 0; j < Dim; ++j) {
+        if (!(node.held >> j & 1u)) continue;
+        body.buffers.a_dt[n][j] = a[j] * dt;
+        motion.dv(j) = 0;  // what holds a node is no part of P
+      }
     }
   } else {
-    for (int j = 0; j < Dim; ++j) motion.dv(j) = scheme::change_of_velocity(scheme.flip, a[j], dt, v_next[j]);
+    for (int j = 0; j < Dim; ++j) {
+      body.buffers.a_dt[n][j] = a[j] * dt;
+      motion.dv(j) = scheme::change_of_velocity(scheme.flip, a[j], dt, v_next[j]);
+    }
   }
   return F;
 }
@@ -176,23 +220,57 @@ void accelerate_nodes(Body<Dim>& body, double dt, const StepSettings& settings, 
   });
 }
 
+/// What is held is no part of P: filter_changes and filter_displacements find it as it was.
 template <int Dim>
 void filter_changes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
   const double phi = settings.scheme.kept(dt);
   for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>&) {
     with_sums<2 * Dim>(body, first, last, [&](const Node<Dim>& node, int n, const auto& M_w) {
       auto& motion = body.buffers.motion[n];
-      auto& a_dt = body.buffers.a_dt[n];
-      auto& half_path = body.buffers.half_path[n];
+      Vec<Dim> a_dt, v_next;
       for (int j = 0; j < Dim; ++j) {
-        const bool held = (node.held >> j & 1u) != 0;
-        const double v_next = scheme::filtered(motion.du(j), M_w[Dim + j], node.per_mass, held);
-        if (!held) a_dt[j] = scheme::filtered(motion.dv(j), M_w[j], node.per_mass, held);
-        half_path[j] = 0.5 * (v_next - a_dt[j]) * dt;
-        motion.dv(j) = scheme::change_of_velocity(phi, a_dt[j], 1, v_next);
+        a_dt[j] = scheme::filtered(motion.dv(j), M_w[j], node.per_mass);
+        v_next[j] = scheme::filtered(motion.du(j), M_w[Dim + j], node.per_mass);
+      }
+      if (node.held != 0) [[unlikely]] {
+        for (int j = 0; j < Dim; ++j) {
+          if (!(node.held >> j & 1u)) continue;
+          a_dt[j] = body.buffers.a_dt[n][j];
+          v_next[j] = motion.du(j);
+        }
+      }
+      for (int j = 0; j < Dim; ++j) {
+        motion.dv(j) = scheme::change_of_velocity(phi, a_dt[j], 1, v_next[j]);
+        motion.du(j) = a_dt[j];  // until there is du: its product with M is part of the books of PIC
+      }
+      if (node.acted_on) [[unlikely]] {
+        for (int j = 0; j < Dim; ++j) body.buffers.half_path[n][j] = 0.5 * (v_next[j] - a_dt[j]) * dt;
       }
     });
   });
+}
+
+/// What PIC takes is Σ ½ m_p (|v_p^FLIP|² − |v_p^{t+dt}|²). With v_p^FLIP = v_p^t + Σ a_i dt N_i its first part is, in
+/// a scheme of two terms with P a for a, Σ ½ m_p |v_p^t|² + Σ (p_i + ½ M_ij a_j dt) · a_i dt: this term of a node comes
+/// to the sum of step 1, and to that over the points with their new velocities.
+template <int Dim, std::size_t n>
+double energy_of_flip(const Node<Dim>& node, const transfer::Motion<Dim>& motion, const std::array<double, n>& M_w) {
+  double sum = 0;
+  if constexpr (n >= 2 * Dim) {
+    for (int j = 0; j < Dim; ++j) sum += (node.m * node.v[j] + 0.5 * M_w[Dim + j]) * motion.du(j);
+  }
+  return sum;
+}
+
+/// The du of held components: no part of P.
+template <int Dim>
+void keep_aside(Body<Dim>& body, int n) {
+  auto& motion = body.buffers.motion[n];
+  for (int j = 0; j < Dim; ++j) {
+    if (!(body.buffers.node[n].held >> j & 1u)) continue;
+    body.buffers.half_path[n][j] = motion.du(j);
+    motion.du(j) = 0;
+  }
 }
 
 /// Forces at nodes work on ½ (v^t + v^{t+dt}), with P before it in a scheme of two terms: with that the change of the
@@ -202,50 +280,66 @@ template <int Dim>
 void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
   const Scheme& scheme = settings.scheme;
   const double phi = scheme.kept(dt);
+  const bool filters = scheme.filters_motion(), books_pic = scheme::books_pic_at_nodes(scheme, dt);
   for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>& part) {
     Vec<Dim> m_du{};
-    with_sums<Dim>(body, first, last, [&](const Node<Dim>& node, int n, const auto& dp) {
-      Vec<Dim> v;
-      Vec<Dim> path;
+    double taken = 0;
+    const auto of_node = [&](const Node<Dim>& node, int n, const auto& M_w) {
+      auto& motion = body.buffers.motion[n];
+      Vec<Dim> v, path;
       for (int j = 0; j < Dim; ++j) {
-        v[j] = phi * node.v[j] + dp[j] * node.per_mass;
+        v[j] = phi * node.v[j] + M_w[j] * node.per_mass;
         path[j] = 0.5 * (node.v[j] + v[j]) * dt;
       }
+      if (books_pic) taken += energy_of_flip(node, motion, M_w);
       // The others: of a scheme of two terms on P v, below; of one whose points take the velocity before, on that.
       const unsigned here = scheme.affine ? 0 : scheme.two_terms ? node.held : all_components;
-      book_work<Dim>(body, n, settings, here, path, part);
-      if (is_resisted(body, n, settings.damping)) [[unlikely]]
-        constrain_velocity<Dim>(body.conditions, scheme.wall, n, node.held, v);
-      auto& motion = body.buffers.motion[n];
-      for (int j = 0; j < Dim; ++j) {
-        motion.du(j) = v[j] * dt;
-        m_du[j] += node.m * motion.du(j);
-        if (!scheme.filters_motion() || !(node.held >> j & 1u)) continue;
-        body.buffers.half_path[n][j] = motion.du(j);  // what is held is no part of P; kept aside
-        motion.du(j) = 0;
+      if (here != 0) book_work<Dim>(body, n, settings, here, path, part);
+      if (node.acted_on && is_resisted(body, n, settings.damping)) [[unlikely]]
+        v = constrained<Dim>(body, n, scheme, v);
+      for (int j = 0; j < Dim; ++j) motion.du(j) = v[j] * dt;
+      if (!filters) {
+        for (int j = 0; j < Dim; ++j) m_du[j] += node.m * motion.du(j);
+      } else if (node.held != 0) [[unlikely]] {
+        keep_aside<Dim>(body, n);
       }
-    });
-    if (scheme.filters_motion()) return;
+    };
+    if (scheme.two_terms) {
+      with_sums<2 * Dim>(body, first, last, of_node);
+    } else {
+      with_sums<Dim>(body, first, last, of_node);
+    }
+    part.dissipation_pic += taken;
     for (int j = 0; j < Dim; ++j) part.work_gravity += m_du[j] * body.gravity[j];
   });
+}
+
+/// du = P v dt of a node that is acted on, from what it is without conditions; books the work of what acts on it.
+template <int Dim>
+[[gnu::noinline]] Vec<Dim> displacement_of_others(Body<Dim>& body, int n, const StepSettings& settings, Vec<Dim> du,
+                                                  StepBooks<Dim>& books) {
+  const Vec<Dim>& aside = body.buffers.half_path[n];
+  const unsigned held = body.buffers.node[n].held;
+  Vec<Dim> path;
+  for (int j = 0; j < Dim; ++j) {
+    if (held >> j & 1u) du[j] = aside[j];
+    path[j] = aside[j] + 0.5 * du[j];
+  }
+  if (settings.scheme.two_terms) book_work_of_others<Dim>(body, n, settings, ~held, path, books);
+  if (is_resisted(body, n, settings.damping)) du = constrained<Dim>(body, n, settings.scheme, du);
+  return du;
 }
 
 template <int Dim>
 void filter_displacements(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books) {
   for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>& part) {
     Vec<Dim> m_du{};
-    with_sums<Dim>(body, first, last, [&](const Node<Dim>& node, int n, const auto& M_w) {
+    with_sums<2 * Dim>(body, first, last, [&](const Node<Dim>& node, int n, const auto& M_w) {
       auto& motion = body.buffers.motion[n];
-      Vec<Dim> du, path;
-      for (int j = 0; j < Dim; ++j) {
-        const bool held = (node.held >> j & 1u) != 0;
-        const double aside = body.buffers.half_path[n][j];
-        du[j] = scheme::filtered(held ? aside : motion.du(j), M_w[j], node.per_mass, held);
-        path[j] = aside + 0.5 * du[j];
-      }
-      if (settings.scheme.two_terms) book_work<Dim>(body, n, settings, ~static_cast<unsigned>(node.held), path, part);
-      if (is_resisted(body, n, settings.damping)) [[unlikely]]
-        constrain_velocity<Dim>(body.conditions, settings.scheme.wall, n, node.held, du);
+      Vec<Dim> du;
+      for (int j = 0; j < Dim; ++j) du[j] = scheme::filtered(motion.du(j), M_w[Dim + j], node.per_mass);
+      if (node.acted_on) [[unlikely]]
+        du = displacement_of_others<Dim>(body, n, settings, du, part);
       for (int j = 0; j < Dim; ++j) {
         motion.du(j) = du[j];
         m_du[j] += node.m * du[j];

@@ -28,7 +28,8 @@ void map_points_to_elements(Body<Dim>& body, const StepSettings& settings, StepB
 template <int Dim>
 void accelerate_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books);
 
-/// Σ_j M_ij w_j over the elements, for n components w of the nodes' Motion from component `from` on.
+/// Σ_j M_ij w_j over the elements, for the first n components w of the nodes' Motion: those of c, or all. Of all only
+/// those from `from` on need be there.
 template <int n, int Dim>
 void sum_with_mass_matrix(Body<Dim>& body, int from, StepBooks<Dim>& books);
 

@@ -100,9 +100,14 @@ inline Scheme apic_scheme() {
 
 namespace scheme {
 
-/// w and M w / m of a node to P w; held components are not corrected.
-inline double filtered(double w, double M_w, double per_mass, bool held) {
-  return held ? w : 2 * w - M_w * per_mass;
+/// Is what PIC takes booked of sums at the nodes? Otherwise points book it, who then need a velocity more.
+inline bool books_pic_at_nodes(const Scheme& s, double dt) {
+  return s.two_terms && s.kept(dt) < 1;
+}
+
+/// w and M w of a node to P w; held components are not corrected.
+inline double filtered(double w, double M_w, double per_mass) {
+  return 2 * w - M_w * per_mass;
 }
 
 /// φ a dt + (1 − φ) ṽ, with ṽ and a as they are, or with P before both.

@@ -119,12 +119,14 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
   timed(Phase::nodes, [&] { step::accelerate_nodes(body, dt, settings, books); });              // 2 and 3, eq. 5
   if (scheme.two_terms) {
     timed(Phase::velocities, [&] { step::sum_with_mass_matrix<2 * Dim>(body, 0, books); });
-    timed(Phase::nodes, [&] { step::filter_changes(body, dt, settings, books); });  // 4: c = P c
+    timed(Phase::nodes, [&] { step::filter_changes(body, dt, settings, books); });           // 4: c = P c
+    timed(Phase::velocities, [&] { step::sum_with_mass_matrix<2 * Dim>(body, 0, books); });  // 4 and 5, eqs 6 and 7
+  } else {
+    timed(Phase::velocities, [&] { step::sum_with_mass_matrix<Dim>(body, 0, books); });  // 4 and 5, eqs 6 and 7
   }
-  timed(Phase::velocities, [&] { step::sum_with_mass_matrix<Dim>(body, 0, books); });  // 4 and 5, eqs 6 and 7
   timed(Phase::nodes, [&] { step::velocities_of_nodes(body, dt, settings, books); });  // 5, eq. 8
   if (scheme.filters_motion()) {
-    timed(Phase::velocities, [&] { step::sum_with_mass_matrix<Dim>(body, Dim, books); });
+    timed(Phase::velocities, [&] { step::sum_with_mass_matrix<2 * Dim>(body, Dim, books); });
     timed(Phase::nodes, [&] { step::filter_displacements(body, settings, books); });  // 5: du = P v dt
   }
   step::strain_stress_and_motion(body, dt, settings, books);          // 4, 6 to 11, eqs 6, 9–19 and section 3

@@ -36,7 +36,7 @@ namespace transfer {
 /// det(I + L dt)
 template <class T>
 inline T determinant_of_stretch(const std::array<std::array<T, 2>, 2>& L) {
-  return (T(1.0) + L[0][0]) * (T(1.0) + L[1][1]) - L[0][1] * L[1][0];
+  return fma(-L[0][1], L[1][0], (T(1.0) + L[0][0]) * (T(1.0) + L[1][1]));
 }
 template <class T>
 inline T determinant_of_stretch(const std::array<std::array<T, 3>, 3>& L) {
@@ -45,47 +45,67 @@ inline T determinant_of_stretch(const std::array<std::array<T, 3>, 3>& L) {
          L[0][2] * (L[1][0] * L[2][1] - y * L[2][0]);
 }
 
-/// L̃ = L dt (I + ½ L dt)⁻¹: the gradient of the step's displacement where the body is in the middle of it. A rotation
-/// by any angle is without strain there, and a stretch of 1 + e has the strain ln(1 + e) to third order.
-template <std::size_t Dim, class T>
-inline std::array<std::array<T, Dim>, Dim> of_middle(const std::array<std::array<T, Dim>, Dim>& L) {
-  std::array<std::array<T, Dim>, Dim> A, I, M;
-  repeat<Dim>([&](auto j) { repeat<Dim>([&](auto k) { A[j][k] = fma(T(0.5), L[j][k], T(j == k ? 1.0 : 0.0)); }); });
-  scarp::detail::inverse(A, I);
-  repeat<Dim>([&](auto j) {
-    repeat<Dim>([&](auto k) {
-      M[j][k] = L[j][0] * I[0][k];
-      repeat<Dim - 1>([&](auto l) { M[j][k] = fma(L[j][l + 1], I[l + 1][k], M[j][k]); });
-    });
-  });
-  return M;
-}
+/// Strain and spin increments of a step (eqs 10, 11).
+template <class T, int Dim>
+struct Increments {
+  Sym<T, sym_size<Dim>> deps;
+  Spin<T, sym_size<Dim>> spin;
+};
 
-/// Turns the strain increments at place `at`, those of the middle of the step, by half the spin there to its end, where
-/// the stress is turned to.
-template <int Dim, class T>
-inline void turn_to_end(Strains<Dim>& strains, int at) {
-  constexpr int N = sym_size<Dim>;
-  Sym<T, N> deps;
-  Spin<T, N> half;
-  repeat<N>([&](auto c) { deps[c] = T::load_unaligned(strains.deps[c].data() + at); });
-  repeat<spin_size<Dim>>([&](auto c) { half.w[c] = T(0.5) * T::load_unaligned(strains.spin[c].data() + at); });
-  const auto turned = Rotation<T, N>(half)(deps);
-  repeat<N>([&](auto c) { turned[c].store_unaligned(strains.deps[c].data() + at); });
-}
-
-/// Strain and spin increments (eqs 10, 11) of L dt to the places `at` on; in the plane `hoop` is that of the
-/// circumference, zero in plane strain. Whole batches are written: what comes behind the last point of an element is
-/// overwritten by the next.
-template <int Dim, class T>
-inline void store_strains(const std::array<std::array<T, Dim>, Dim>& L, const T& hoop, Strains<Dim>& strains, int at) {
-  repeat<Dim>([&](auto j) { L[j][j].store_unaligned(strains.deps[j].data() + at); });
-  if constexpr (Dim == 2) hoop.store_unaligned(strains.deps[2].data() + at);
+/// Those of L dt; in the plane `hoop` is the strain of the circumference, zero in plane strain.
+template <class T, std::size_t Dim>
+inline Increments<T, int{Dim}> increments_of(const std::array<std::array<T, Dim>, Dim>& L, const T& hoop) {
+  Increments<T, int{Dim}> of;
+  repeat<Dim>([&](auto j) { of.deps[j] = L[j][j]; });
+  if constexpr (Dim == 2) of.deps[2] = hoop;
   repeat<spin_size<Dim>>([&](auto j) {  // xy, yz, zx
     constexpr int k = (j + 1) % Dim;
-    (T(0.5 * sqrt2) * (L[j][k] + L[k][j])).store_unaligned(strains.deps[3 + j].data() + at);
-    (T(0.5) * (L[j][k] - L[k][j])).store_unaligned(strains.spin[j].data() + at);
+    of.deps[3 + j] = T(0.5 * sqrt2) * (L[j][k] + L[k][j]);
+    of.spin.w[j] = T(0.5) * (L[j][k] - L[k][j]);
   });
+  return of;
+}
+
+/// Those of L̃ = L dt (I + ½ L dt)⁻¹, the gradient of the step's displacement where the body is in the middle of it; the
+/// strain turned by half of the spin to the end of the step, where the stress is turned to. A rotation by any angle is
+/// without strain, and a stretch of 1 + e has the strain ln(1 + e) to third order.
+template <class T>
+inline Increments<T, 3> increments_of_middle(const std::array<std::array<T, 3>, 3>& L, const T& hoop) {
+  std::array<std::array<T, 3>, 3> A, I, M;
+  repeat<3>([&](auto j) { repeat<3>([&](auto k) { A[j][k] = fma(T(0.5), L[j][k], T(j == k ? 1.0 : 0.0)); }); });
+  scarp::detail::inverse(A, I);
+  repeat<3>([&](auto j) {
+    repeat<3>([&](auto k) { M[j][k] = fma(L[j][2], I[2][k], fma(L[j][1], I[1][k], L[j][0] * I[0][k])); });
+  });
+  auto of = increments_of(M, hoop);
+  Spin<T, 6> half;
+  repeat<3>([&](auto c) { half.w[c] = T(0.5) * of.spin.w[c]; });
+  of.deps = Rotation<T, 6>(half)(of.deps);
+  return of;
+}
+
+/// The same in the plane, with one division. By Cayley and Hamilton L̃ = (L dt + ½ det(L dt) I) / D with
+/// D = det(I + ½ L dt) = 1 + ½ tr(L dt) + ¼ det(L dt); its spin is W / 2D with W = L_xy dt − L_yx dt. Half of that
+/// turns by the φ of tan(φ/2) = −W / 8D (tensor/rotation.hpp), and the deviator by 2φ.
+template <class T>
+inline Increments<T, 2> increments_of_middle(const std::array<std::array<T, 2>, 2>& L, const T& hoop) {
+  const T half_det = T(0.5) * fma(-L[0][1], L[1][0], L[0][0] * L[1][1]), half_trace = T(0.5) * (L[0][0] + L[1][1]);
+  const T D = T(1.0) + half_trace + T(0.5) * half_det, W = L[0][1] - L[1][0];
+  const T D8 = T(8.0) * D, q = fma(D8, D8, W * W), per_Dq = T(1.0) / (D * q), per_D = q * per_Dq, per_q = D * per_Dq;
+  const T c = (D8 * D8 - W * W) * per_q, s = T(-2.0) * D8 * W * per_q;  // cos φ and sin φ
+  const T c2 = c * c - s * s, s2 = T(2.0) * c * s;
+  const T mean = (half_trace + half_det) * per_D, normal = T(0.5) * (L[0][0] - L[1][1]) * per_D,
+          shear = T(0.5) * (L[0][1] + L[1][0]) * per_D;
+  const T turned = c2 * normal - s2 * shear;
+  return {{{mean + turned, mean - turned, hoop, T(sqrt2) * (s2 * normal + c2 * shear)}}, {{T(0.5) * W * per_D}}};
+}
+
+/// Increments to the places `at` on. Whole batches are written: what comes behind the last point of an element is
+/// overwritten by the next.
+template <class T, int Dim>
+inline void store_strains(const Increments<T, Dim>& increments, Strains<Dim>& strains, int at) {
+  repeat<sym_size<Dim>>([&](auto c) { increments.deps[c].store_unaligned(strains.deps[c].data() + at); });
+  repeat<spin_size<Dim>>([&](auto c) { increments.spin.w[c].store_unaligned(strains.spin[c].data() + at); });
 }
 
 }  // namespace transfer

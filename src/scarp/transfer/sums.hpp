@@ -30,6 +30,15 @@ constexpr std::size_t mass_matrix_size(int nodes, std::size_t padded) {
   return nodes % 2 == 0 && rows > 0 ? (rows - 1) * padded + padded / 2 : rows * padded;
 }
 
+/// Where M_ij of an element is in what it keeps.
+template <class Basis>
+constexpr int mass_matrix_place(int i, int j) {
+  constexpr int K = Basis::nodes;
+  const int k = (j - i + K) % K;
+  if (2 * k > K) return mass_matrix_place<Basis>(j, i);
+  return k * nodal_size<Basis> + (2 * k == K ? i % (K / 2) : i);
+}
+
 /// Sums over an element's points in step 1.
 template <class Basis>
 struct ElementSums {
@@ -43,6 +52,7 @@ struct ElementSums {
   ShiftSums<Basis> shift;                           ///< what s_i follows from
   std::array<OfNodes, Hoop<Basis>{}.size()> hoop;   ///< Σ Ω_p N_i / r
   std::array<OfNodes, rows> M;                      ///< Σ m_p N_i N_{i+k}
+  OfPoints m_v2 = OfPoints(0.0);                    ///< Σ m_p |v_p|²
   OfPoints Omega = OfPoints(0.0);                   ///< Σ Ω_p
   OfPoints Omega_mean = OfPoints(0.0);              ///< Σ Ω_p s_p, of mean stresses that were left out of the others
   std::array<OfPoints, sym_size<dim>> Omega_sigma;  ///< Σ Ω_p σ_p
@@ -101,6 +111,9 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Places& p
     const auto m_of = of_points<Basis>(p, points.mass), Omega_of = of_points<Basis>(p, points.volume);
     const auto v_of = make_array<Dim>([&](auto j) { return of_points<Basis>(p, points.v[j]); });
     const T volume = p.load(points.volume);
+    T v2(0.0);
+    repeat<Dim>([&](auto j) { v2 = fma(p.load(points.v[j]), p.load(points.v[j]), v2); });
+    sums.m_v2 = fma(p.load(points.mass), v2, sums.m_v2);
     sums.Omega += volume;
     sums.shift.add_batch(shapes, points, p, volume);
     auto felt_here = make_array<components>([&](auto c) {

@@ -40,15 +40,16 @@ struct MotionSums {
   MotionSums() { momentum.fill(T(0.0)); }
 };
 
-/// Adds n components p of an element's local nodes to the places of its nodes.
-template <class Basis, std::size_t n>
+/// Adds n components p of an element's local nodes to the places of its nodes, `size` numbers each, from number `first`
+/// on.
+template <class Basis, int size, int first, std::size_t n>
 inline void momentum_to_places(const std::array<Nodal<Basis>, n>& p, const int* place, double* momentum) {
-  constexpr int W = lanes_of<Lane<Basis>>, size = place_size<static_cast<int>(n)>;
+  constexpr int W = lanes_of<Lane<Basis>>;
   repeat<nodal_batches<Basis>>([&](auto b) {
     std::array<Lane<Basis>, size> of_batch;
     repeat<size>([&](auto j) {
-      constexpr bool used = j < static_cast<int>(n);
-      of_batch[j] = used ? p[used ? j : 0][b] : Lane<Basis>(0.0);
+      constexpr bool used = first <= j && j < first + static_cast<int>(n);
+      of_batch[j] = used ? p[used ? j - first : 0][b] : Lane<Basis>(0.0);
     });
     add_to_places<std::min(W, Basis::nodes - b * W)>(of_batch, place + b * W, momentum);
   });
@@ -76,11 +77,32 @@ inline void add_momentum(const double* M, const NodeRows<Basis>& rows, const int
       }
     });
   });
-  momentum_to_places<Basis>(p, place, momentum);
+  momentum_to_places<Basis, place_size<n>, 0>(p, place, momentum);
 }
 
-/// The same for an element that does not: Σ_p m_p N_i Σ_j N_j w_j, through its points.
-template <class Basis, int n>
+/// The same for all components of the nodes' Motion at once, side by side: what schemes with P need.
+template <class Basis>
+inline void add_products(const double* M, const NodeRows<Basis>& rows, const int* place, double* products) {
+  constexpr int K = Basis::nodes, n = 2 * Basis::dim, size = row_size<n>;
+  static_assert(size == place_size<n>);
+  using T = typename Row<n>::value_type;
+  repeat<size / lanes_of<T>>([&](auto b) {
+    const auto w = make_array<K>([&](auto i) { return T::load_aligned(rows[i] + b * lanes_of<T>); });
+    repeat<K>([&](auto i) {
+      T p = T(M[mass_matrix_place<Basis>(i, i)]) * w[i];
+      repeat<K - 1>([&](auto k) {
+        constexpr int j = (i + k + 1) % K;
+        p = fma(T(M[mass_matrix_place<Basis>(i, j)]), w[j], p);
+      });
+      double* to = products + static_cast<std::size_t>(place[i]) * size + b * lanes_of<T>;
+      (T::load_unaligned(to) + p).store_unaligned(to);
+    });
+  });
+}
+
+/// n components w for an element that does not keep M_ij: Σ_p m_p N_i Σ_j N_j w_j, through its points. Places have
+/// `size` numbers, which this adds to from number `first` on.
+template <class Basis, int n, int size, int first>
 inline void add_momentum(const typename Basis::Cell& cell, const Points<Basis::dim>& points, const PointRange& range,
                          const NodeRows<Basis>& rows, const int* place, double* momentum) {
   using T = PointBatch<Basis::dim>;
@@ -103,14 +125,14 @@ inline void add_momentum(const typename Basis::Cell& cell, const Points<Basis::d
       });
     });
   });
-  momentum_to_places<Basis>(totals<Basis>(sums), place, momentum);
+  momentum_to_places<Basis, size, first>(totals<Basis>(sums), place, momentum);
 }
 
 /// What an element has for its points in steps 4 to 10.
 template <class Basis>
 struct ElementMotion {
   NodeRows<Basis> motion;              ///< Motion of each local node
-  NodeRows<Basis> a_dt;                ///< change of velocity of pure FLIP of each; only where there is a PIC share
+  NodeRows<Basis> a_dt;                ///< change of velocity of pure FLIP of each; only where points book PIC
   const double* shift;                 ///< Shift of its quadrature, as stored
   double weight, size;                 ///< w of its quadrature, and its least height
   const double* hoop_shift = nullptr;  ///< that of N_i / r, in a body of revolution
@@ -165,6 +187,18 @@ inline Gradients<T, Basis::dim> gradients_at(const ElementMotion<Basis>& element
 template <class Basis>
 inline double mean_dilation(const typename Basis::Cell& cell, const NodeRows<Basis>& motion) {
   constexpr int Dim = Basis::dim;
+  if constexpr (std::is_same_v<Basis, GridLinear<Dim>>) {  // B̄_i = ± 2 / (K h) along each axis
+    double sum = 0;
+    repeat<Dim>([&](auto d) {
+      double along = 0;
+      repeat<Basis::nodes>([&](auto i) {
+        const double du = motion[i][Dim + d];
+        along += scarp::detail::far_side(i, d) ? du : -du;
+      });
+      sum += along * cell.inverse()[d];
+    });
+    return sum * (2.0 / Basis::nodes);
+  }
   const Means<Basis> mean(cell);
   Lane<Basis> sum(0.0);
   repeat<Dim>([&](auto j) {
@@ -235,10 +269,11 @@ inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotio
     p.store(Omega, points.volume);
     const T dilation = g.trace();
     if (rules.middle) {
-      store_strains<Dim>(of_middle(g.L), g.hoop / fma(T(0.5), g.hoop, T(1.0)), strains, at + first);
-      turn_to_end<Dim, T>(strains, at + first);
+      T hoop(0.0);
+      if constexpr (is_axisymmetric<Basis>) hoop = g.hoop / fma(T(0.5), g.hoop, T(1.0));
+      store_strains(increments_of_middle(g.L, hoop), strains, at + first);
     } else {
-      store_strains<Dim>(g.L, g.hoop, strains, at + first);
+      store_strains(increments_of(g.L, g.hoop), strains, at + first);
     }
     (T(w) * Omega * (T(1.0) - T(0.5) * dilation)).store_unaligned(strains.volume.data() + at + first);
     (T(stiffer) * Omega / m).store_unaligned(strains.per_mass.data() + at + first);
