@@ -54,13 +54,17 @@ class TwinShapes {
       });
     }
     for (auto& at : at_) at.B_own = at.B;
-    if (settings.quadrature != Quadrature::corrected || (mesh.grid && mesh.grid->functions == GridFunctions::gimp))
-      return;
+    if (settings.quadrature != Quadrature::corrected) return;
+    const bool gimp = mesh.grid && mesh.grid->functions == GridFunctions::gimp;
+    std::vector<int> simplices;
     for (int e = 0; e < mesh.element_count(); ++e) {
       bool inside = !in[e].empty();
       for (const int other : mesh.elements_around(e)) inside = inside && !in[other].empty();
-      if (inside && correct(e, in[e]) && settings.scheme.mean_dilatation && !is_simplex(e)) find_means(in[e]);
+      if (!inside || !(gimp ? is_filled(in[e]) : correct(e, in[e])) || !settings.scheme.mean_dilatation) continue;
+      find_means(in[e]);
+      if (is_simplex(e)) simplices.push_back(e);
     }
+    average_over_patches(simplices, in);
   }
 
   const Body<Dim>& body_;
@@ -163,6 +167,40 @@ class TwinShapes {
       }
     }
     for (const auto k : in) at_[k].mean = mean;
+  }
+
+  /// In place of the mean gradients B̄_e of some simplices those of all of them that are in one patch, weighted with
+  /// their volumes w Σ Ω_p.
+  void average_over_patches(const std::vector<int>& simplices, const std::vector<std::vector<std::size_t>>& in) {
+    for (int k = 0; k < body_.patches.size(); ++k) {
+      double volume = 0;
+      std::map<int, Vec<3>> sum, mean;
+      std::vector<std::size_t> of_patch;  // points
+      for (const int e : body_.patches.elements(k)) {
+        if (std::find(simplices.begin(), simplices.end(), e) == simplices.end()) continue;
+        double V = 0;
+        for (const auto p : in[e]) V += at_[p].w * points[p].Omega;
+        volume += V;
+        add(sum, at_[in[e][0]].mean, V);
+        of_patch.insert(of_patch.end(), in[e].begin(), in[e].end());
+      }
+      if (of_patch.empty()) continue;
+      add(mean, sum, 1 / volume);
+      for (const auto p : of_patch) at_[p].mean = mean;
+    }
+  }
+  static void add(std::map<int, Vec<3>>& sum, const std::map<int, Vec<3>>& B, double factor) {
+    for (const auto& [n, B_n] : B) {
+      for (int j = 0; j < 3; ++j) sum[n][j] += factor * B_n[j];
+    }
+  }
+
+  /// Do the points of a cell of a grid fill it?
+  bool is_filled(const std::vector<std::size_t>& in) const {
+    double V = 1, filled = 0;
+    for (const double h : body_.mesh->grid->spacing) V *= h;
+    for (const auto k : in) filled += points[k].Omega;
+    return filled > 0.5 * V && filled < 2 * V;
   }
 
   /// Corrected quadrature inside the soil, as in docs/theory.md. Numbers of nodes are those of the mesh.

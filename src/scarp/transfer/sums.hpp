@@ -37,15 +37,16 @@ struct ElementSums {
   using OfNodes = WideNodal<Basis>;
   using OfPoints = PointBatch<dim>;
 
-  OfNodes m;                                        ///< Σ m_p N_i
-  std::array<OfNodes, dim> p;                       ///< Σ m_p v_p N_i
-  std::array<OfNodes, dim> F;                       ///< Σ B_iᵀ σ_p Ω_p
-  ShiftSums<Basis> shift;                           ///< what s_i follows from
-  std::array<OfNodes, Hoop<Basis>{}.size()> hoop;   ///< Σ Ω_p N_i / r
-  std::array<OfNodes, rows> M;                      ///< Σ m_p N_i N_{i+k}
-  OfPoints Omega = OfPoints(0.0);                   ///< Σ Ω_p
-  OfPoints Omega_mean = OfPoints(0.0);              ///< Σ Ω_p s_p, of mean stresses that were left out of the others
-  std::array<OfPoints, sym_size<dim>> Omega_sigma;  ///< Σ Ω_p σ_p
+  OfNodes m;                                       ///< Σ m_p N_i
+  std::array<OfNodes, dim> p;                      ///< Σ m_p v_p N_i
+  std::array<OfNodes, dim> F;                      ///< Σ B_iᵀ σ_p Ω_p
+  ShiftSums<Basis> shift;                          ///< what s_i follows from
+  std::array<OfNodes, Hoop<Basis>{}.size()> hoop;  ///< Σ Ω_p N_i / r
+  std::array<OfNodes, rows> M;                     ///< Σ m_p N_i N_{i+k}
+  OfPoints Omega = OfPoints(0.0);                  ///< Σ Ω_p
+  OfPoints Omega_mean = OfPoints(0.0);             ///< Σ Ω_p s_p, of mean stresses that were left out of the others
+  std::array<OfNodes, keeps_means<Basis> ? dim : 0> Omega_B;  ///< with these, Σ Ω_p B_i
+  std::array<OfPoints, sym_size<dim>> Omega_sigma;            ///< Σ Ω_p σ_p
 
   ElementSums() {
     clear<Basis>(m);
@@ -55,6 +56,7 @@ struct ElementSums {
     });
     repeat<rows>([&](auto k) { clear<Basis>(M[k]); });
     if constexpr (is_axisymmetric<Basis>) clear<Basis>(hoop[0]);
+    if constexpr (keeps_means<Basis>) repeat<dim>([&](auto j) { clear<Basis>(Omega_B[j]); });
     repeat<sym_size<dim>>([&](auto c) { Omega_sigma[c] = OfPoints(0.0); });
   }
 };
@@ -145,6 +147,14 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Places& p
           });
         });
         sums.shift.add(Omega, here);
+        if constexpr (keeps_means<Basis>) {
+          if (apart) {
+            repeat<Dim>([&](auto j) {
+              repeat<nodal_batches<Basis>>(
+                  [&](auto b) { sums.Omega_B[j][b] = fma(Omega, here.B[j][b], sums.Omega_B[j][b]); });
+            });
+          }
+        }
         if constexpr (is_axisymmetric<Basis>) {
           const W r = of_points<Basis>(p, points.x[0]).of(l), per_r = select(Omega > W(0.0), W(1.0) / r, W(0.0));
           repeat<nodal_batches<Basis>>([&](auto b) {
@@ -198,7 +208,7 @@ inline std::array<Nodal<Basis>, Basis::dim> internal_force(const ElementSums<Bas
   const auto Omega_sigma = make_array<sym_size<Dim>>([&](auto c) { return xsimd::hadd(sums.Omega_sigma[c]); });
   auto F = totals<Basis>(sums.F);
   quadrature.shift.add_force(Omega_sigma, F);
-  if constexpr (has_shift<Basis>) {
+  if constexpr (has_shift<Basis> || keeps_means<Basis>) {
     if (quadrature.means) {
       const T mean(xsimd::hadd(sums.Omega_mean));
       repeat<nodal_batches<Basis>>([&](auto b) {

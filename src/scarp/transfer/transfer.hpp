@@ -114,7 +114,7 @@ struct ElementMotion {
   const double* shift;                 ///< Shift of its quadrature, as stored
   double weight, size;                 ///< w of its quadrature, and its least height
   const double* hoop_shift = nullptr;  ///< that of N_i / r, in a body of revolution
-  bool mean_dilatation = false;        ///< is the volume strain of its points their mean,
+  bool mean_dilatation = false;        ///< is the volume strain of its points a mean,
   double mean_dilation = 0;            ///< this one?
 };
 
@@ -163,9 +163,8 @@ inline Gradients<T, Basis::dim> gradients_at(const ElementMotion<Basis>& element
 
 /// Σ du_i · B̄_i of an element of mean dilatation, in a body of revolution with the mean of N_i / r, too.
 template <class Basis>
-inline double mean_dilation(const typename Basis::Cell& cell, const NodeRows<Basis>& motion) {
+inline double mean_dilation(const Means<Basis>& mean, const NodeRows<Basis>& motion) {
   constexpr int Dim = Basis::dim;
-  const Means<Basis> mean(cell);
   Lane<Basis> sum(0.0);
   repeat<Dim>([&](auto j) {
     const auto du = nodal<Basis>([&](int i) { return motion[i][Dim + j]; });
@@ -224,12 +223,10 @@ inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotio
     sums.mass += m;
     sums.kinetic_energy = fma(m, v2, sums.kinetic_energy);
     sums.fastest2 = max(sums.fastest2, select(m > T(0.0), v2, T(0.0)));  // lanes without a point have any v
-    if constexpr (has_shift<Basis>) {
-      if (element.mean_dilatation) {
-        const T more = (T(element.mean_dilation) - g.trace()) * T(1.0 / mean_directions<Basis>);
-        repeat<Dim>([&](auto j) { g.L[j][j] += more; });
-        if constexpr (is_axisymmetric<Basis>) g.hoop += more;
-      }
+    if (element.mean_dilatation) {
+      const T more = (T(element.mean_dilation) - g.trace()) * T(1.0 / mean_directions<Basis>);
+      repeat<Dim>([&](auto j) { g.L[j][j] += more; });
+      if constexpr (is_axisymmetric<Basis>) g.hoop += more;
     }
     const T Omega = p.load(points.volume) * determinant_of_stretch(g.L) * (T(1.0) + g.hoop);
     p.store(Omega, points.volume);
