@@ -29,6 +29,7 @@ class TwinShapes {
     std::vector<Vec<3>> B, B_own;  ///< corrected, and as the functions have it
     double w = 1;
     std::map<int, Vec<3>> mean;
+    double share = 1;  ///< of the point in the mean
   };
 
   void find_shapes(const StepSettings& settings) {
@@ -61,6 +62,7 @@ class TwinShapes {
       bool inside = !in[e].empty();
       for (const int other : mesh.elements_around(e)) inside = inside && !in[other].empty();
       if (!inside || !(gimp ? is_filled(in[e]) : correct(e, in[e])) || !settings.scheme.mean_dilatation) continue;
+      if (gimp) find_shares(e, in[e]);
       find_means(in[e]);
       if (is_simplex(e)) simplices.push_back(e);
     }
@@ -156,14 +158,30 @@ class TwinShapes {
     return !body_.mesh->grid && body_.mesh->element_nodes(e).size() == static_cast<std::size_t>(Dim + 1);
   }
 
-  /// B̄_i = Σ Ω_p B̂_i(x_p) / Σ Ω_p over the points of an element.
+  /// γ_p: how far the middle of a point is from the nearest line to another cell, over how far its domain reaches,
+  /// along each axis; at most 1. Domains end at the sides of the grid, and beyond these is no other cell.
+  void find_shares(int e, const std::vector<std::size_t>& in) {
+    const auto& grid = *body_.mesh->grid;
+    const auto cell = grid.cell(e);
+    for (const auto k : in) {
+      for (int j = 0; j < Dim; ++j) {
+        const double h = grid.spacing[j], low = grid.origin[j] + cell[j] * h, x = points[k].x[j];
+        const double reach =
+            std::min({points[k].half_edge, h / 2, x - grid.origin[j], grid.origin[j] + grid.elements[j] * h - x});
+        at_[k].share *= std::clamp(std::min(x - low, low + h - x) / reach, 0.0, 1.0);
+      }
+    }
+  }
+
+  /// B̄_i = Σ γ_p Ω_p B̂_i(x_p) / Σ γ_p Ω_p over the points of an element.
   void find_means(const std::vector<std::size_t>& in) {
     std::map<int, Vec<3>> mean;
     double filled = 0;
-    for (const auto k : in) filled += points[k].Omega;
+    for (const auto k : in) filled += at_[k].share * points[k].Omega;
     for (const auto k : in) {
+      const double part = at_[k].share * points[k].Omega / filled;
       for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
-        for (int j = 0; j < 3; ++j) mean[at_[k].node[i]][j] += points[k].Omega * at_[k].B[i][j] / filled;
+        for (int j = 0; j < 3; ++j) mean[at_[k].node[i]][j] += part * at_[k].B[i][j];
       }
     }
     for (const auto k : in) at_[k].mean = mean;

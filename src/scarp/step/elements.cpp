@@ -47,7 +47,7 @@ void use_means(Buffers<Basis::dim>& buffers, int slot, const transfer::ElementSu
     buffers.patch_share[slot] = {means.V, xsimd::hadd(sums.Omega_mean) / xsimd::hadd(sums.Omega), 0};
   } else {
     if constexpr (transfer::keeps_means<Basis>) {
-      const transfer::Lane<Basis> per_volume(1 / xsimd::hadd(sums.Omega));
+      const transfer::Lane<Basis> per_volume(1 / std::max(1e-300, xsimd::hadd(sums.Omega_share)));
       means.gradient = transfer::totals<Basis>(sums.Omega_B);
       for (auto& component : means.gradient) {
         for (auto& batch : component) batch *= per_volume;

@@ -45,7 +45,8 @@ struct ElementSums {
   std::array<OfNodes, rows> M;                     ///< Σ m_p N_i N_{i+k}
   OfPoints Omega = OfPoints(0.0);                  ///< Σ Ω_p
   OfPoints Omega_mean = OfPoints(0.0);             ///< Σ Ω_p s_p, of mean stresses that were left out of the others
-  std::array<OfNodes, keeps_means<Basis> ? dim : 0> Omega_B;  ///< with these, Σ Ω_p B_i
+  std::array<OfNodes, keeps_means<Basis> ? dim : 0> Omega_B;  ///< with these, Σ γ_p Ω_p B_i
+  OfPoints Omega_share = OfPoints(0.0);                       ///< Σ γ_p Ω_p, of GIMP
   std::array<OfPoints, sym_size<dim>> Omega_sigma;            ///< Σ Ω_p σ_p
 
   ElementSums() {
@@ -111,13 +112,21 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Places& p
       if constexpr (used) return T(c < 3 ? 1 : 1 / sqrt2) * p.load(felt[c]);
       return T(0.0);
     });
+    T volume_of_mean = volume;
     if (apart) {
       T mean = felt_here[0] + felt_here[1];
       if constexpr (mean_directions<Basis> == 3) mean += felt_here[2];
       mean *= T(1.0 / mean_directions<Basis>);
+      if constexpr (keeps_means<Basis>) {
+        const T share = share_of_mean<Basis>(local_coordinates<Basis>(shapes.cell(), points, p));
+        mean *= share;
+        volume_of_mean *= share;
+        sums.Omega_share += volume_of_mean;
+      }
       repeat<mean_directions<Basis>>([&](auto j) { felt_here[j] -= mean; });
       sums.Omega_mean = fma(volume, mean, sums.Omega_mean);
     }
+    const auto volume_of_mean_of = OfPoints<Basis>(volume_of_mean);
     const auto sigma_of = make_array<components>([&](auto c) {
       sums.Omega_sigma[c] = fma(volume, felt_here[c], sums.Omega_sigma[c]);
       return OfPoints<Basis>(volume * felt_here[c]);
@@ -149,9 +158,10 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Places& p
         sums.shift.add(Omega, here);
         if constexpr (keeps_means<Basis>) {
           if (apart) {
+            const W Omega_share = volume_of_mean_of.of(l);
             repeat<Dim>([&](auto j) {
               repeat<nodal_batches<Basis>>(
-                  [&](auto b) { sums.Omega_B[j][b] = fma(Omega, here.B[j][b], sums.Omega_B[j][b]); });
+                  [&](auto b) { sums.Omega_B[j][b] = fma(Omega_share, here.B[j][b], sums.Omega_B[j][b]); });
             });
           }
         }

@@ -224,7 +224,8 @@ inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotio
     sums.kinetic_energy = fma(m, v2, sums.kinetic_energy);
     sums.fastest2 = max(sums.fastest2, select(m > T(0.0), v2, T(0.0)));  // lanes without a point have any v
     if (element.mean_dilatation) {
-      const T more = (T(element.mean_dilation) - g.trace()) * T(1.0 / mean_directions<Basis>);
+      T more = (T(element.mean_dilation) - g.trace()) * T(1.0 / mean_directions<Basis>);
+      if constexpr (keeps_means<Basis>) more *= share_of_mean<Basis>(local);
       repeat<Dim>([&](auto j) { g.L[j][j] += more; });
       if constexpr (is_axisymmetric<Basis>) g.hoop += more;
     }
