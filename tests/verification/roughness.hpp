@@ -99,8 +99,9 @@ inline double roughness(const Body<2>& body) {
 }
 
 /// The same of a slope that has had two seconds to come to rest with local damping: some ten periods of its shear.
-inline double roughness_at_rest(const Scheme& scheme, Cells cells, double h, double spacing, double nu = 0.49) {
-  auto body = soft_slope(cells, h, spacing, nu);
+inline double roughness_at_rest(const Scheme& scheme, Cells cells, double h, double spacing, double nu = 0.49,
+                                GridFunctions shape = GridFunctions::linear) {
+  auto body = soft_slope(cells, h, spacing, nu, shape);
   StepSettings settings;
   settings.scheme = scheme;
   settings.damping = 0.7;
