@@ -32,12 +32,12 @@ std::vector<std::uint64_t> bits(Body<Dim>& body, const StepBooks<Dim>& books) {
 
 template <int Dim>
 std::vector<std::uint64_t> run(int threads, Mesh<Dim> mesh, const AnyModel& model, int along, int steps, double speed,
-                               double length = 0) {
+                               double length = 0, const Scheme& scheme = report_scheme(0.99)) {
   exec::set_threads(threads);
   auto body = soil<Dim>(std::move(mesh), model, along, speed, length);
   const double dt = 0.3 * critical_time_step(body);
   const StepSettings settings{
-      .scheme = report_scheme(0.99), .damping = 0.05, .quadrature = Quadrature::corrected, .integration = {1e-4, 1e-5}};
+      .scheme = scheme, .damping = 0.05, .quadrature = Quadrature::corrected, .integration = {1e-4, 1e-5}};
   StepBooks<Dim> books;
   std::int64_t changed = 0;
   for (int s = 0; s < steps; ++s) {
@@ -132,6 +132,20 @@ TEST(SameBitsOn1And2And3And8Threads, EveryLawThatSoftensOverALength) {
         [&](int threads) { return run<2>(threads, plane_mesh(Background::grid, 30), model, 40, 60, 2.0, 0.1); });
   }
   EXPECT_EQ(softening, 6);
+}
+TEST(SameBitsOn1And2And3And8Threads, StandardSchemeWithItsMeansOverPatchesAndCells) {
+  for (const auto kind : {Background::triangles, Background::mixed, Background::gimp}) {
+    SCOPED_TRACE(static_cast<int>(kind));
+    expect_same([&](int threads) {
+      return run<2>(threads, plane_mesh(kind, 30), subloading(), 44, 40, 1.0, 0, two_term_scheme());
+    });
+  }
+  for (const auto kind : {Background::triangles, Background::gimp}) {
+    SCOPED_TRACE(static_cast<int>(kind));
+    expect_same([&](int threads) {
+      return run<3>(threads, solid_mesh(kind, 8), elastic(), 14, 40, 1.0, 0, two_term_scheme());
+    });
+  }
 }
 TEST(SameBitsOn1And2And3And8Threads, ElasticBodyOfRevolution) {
   expect_same(

@@ -75,7 +75,7 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
     held_.assign(nodes, 0);
     for (std::size_t k = 0; k < points.size(); ++k) {
       const Point& point = points[k];
-      const double s = at_[k].mean.empty() ? 0 : mean_stress(point);
+      const double s = at_[k].mean.empty() ? 0 : at_[k].share * mean_stress(point);
       for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
         const int n = at_[k].node[i];
         const double Omega = at_[k].w * point.Omega;
@@ -235,7 +235,7 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
       if (body_.mesh->axisymmetric) mean += v[n][0] * B[2] * dt;
     }
     if (!at_[k].mean.empty()) {
-      const double more = (mean - L[0][0] - L[1][1] - L[2][2]) / mean_directions();
+      const double more = at_[k].share * (mean - L[0][0] - L[1][1] - L[2][2]) / mean_directions();
       for (int j = 0; j < mean_directions(); ++j) L[j][j] += more;
     }
     point.Omega *= determinant(one_and(1, L));

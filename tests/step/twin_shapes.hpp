@@ -29,6 +29,7 @@ class TwinShapes {
     std::vector<Vec<3>> B, B_own;  ///< corrected, and as the functions have it
     double w = 1;
     std::map<int, Vec<3>> mean;
+    double share = 1;  ///< of the point in the mean
   };
 
   void find_shapes(const StepSettings& settings) {
@@ -54,13 +55,18 @@ class TwinShapes {
       });
     }
     for (auto& at : at_) at.B_own = at.B;
-    if (settings.quadrature != Quadrature::corrected || (mesh.grid && mesh.grid->functions == GridFunctions::gimp))
-      return;
+    if (settings.quadrature != Quadrature::corrected) return;
+    const bool gimp = mesh.grid && mesh.grid->functions == GridFunctions::gimp;
+    std::vector<int> simplices;
     for (int e = 0; e < mesh.element_count(); ++e) {
       bool inside = !in[e].empty();
       for (const int other : mesh.elements_around(e)) inside = inside && !in[other].empty();
-      if (inside && correct(e, in[e]) && settings.scheme.mean_dilatation && !is_simplex(e)) find_means(in[e]);
+      if (!inside || !(gimp ? is_filled(in[e]) : correct(e, in[e])) || !settings.scheme.mean_dilatation) continue;
+      if (gimp) find_shares(e, in[e]);
+      find_means(in[e]);
+      if (is_simplex(e)) simplices.push_back(e);
     }
+    average_over_patches(simplices, in);
   }
 
   const Body<Dim>& body_;
@@ -152,17 +158,67 @@ class TwinShapes {
     return !body_.mesh->grid && body_.mesh->element_nodes(e).size() == static_cast<std::size_t>(Dim + 1);
   }
 
-  /// B̄_i = Σ Ω_p B̂_i(x_p) / Σ Ω_p over the points of an element.
+  /// γ_p: how far the middle of a point is from the nearest line to another cell, over how far its domain reaches,
+  /// along each axis; at most 1. Domains end at the sides of the grid, and beyond these is no other cell.
+  void find_shares(int e, const std::vector<std::size_t>& in) {
+    const auto& grid = *body_.mesh->grid;
+    const auto cell = grid.cell(e);
+    for (const auto k : in) {
+      for (int j = 0; j < Dim; ++j) {
+        const double h = grid.spacing[j], low = grid.origin[j] + cell[j] * h, x = points[k].x[j];
+        const double reach =
+            std::min({points[k].half_edge, h / 2, x - grid.origin[j], grid.origin[j] + grid.elements[j] * h - x});
+        at_[k].share *= std::clamp(std::min(x - low, low + h - x) / reach, 0.0, 1.0);
+      }
+    }
+  }
+
+  /// B̄_i = Σ γ_p Ω_p B̂_i(x_p) / Σ γ_p Ω_p over the points of an element.
   void find_means(const std::vector<std::size_t>& in) {
     std::map<int, Vec<3>> mean;
     double filled = 0;
-    for (const auto k : in) filled += points[k].Omega;
+    for (const auto k : in) filled += at_[k].share * points[k].Omega;
     for (const auto k : in) {
+      const double part = at_[k].share * points[k].Omega / filled;
       for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
-        for (int j = 0; j < 3; ++j) mean[at_[k].node[i]][j] += points[k].Omega * at_[k].B[i][j] / filled;
+        for (int j = 0; j < 3; ++j) mean[at_[k].node[i]][j] += part * at_[k].B[i][j];
       }
     }
     for (const auto k : in) at_[k].mean = mean;
+  }
+
+  /// In place of the mean gradients B̄_e of some simplices those of all of them that are in one patch, weighted with
+  /// their volumes w Σ Ω_p.
+  void average_over_patches(const std::vector<int>& simplices, const std::vector<std::vector<std::size_t>>& in) {
+    for (int k = 0; k < body_.patches.size(); ++k) {
+      double volume = 0;
+      std::map<int, Vec<3>> sum, mean;
+      std::vector<std::size_t> of_patch;  // points
+      for (const int e : body_.patches.elements(k)) {
+        if (std::find(simplices.begin(), simplices.end(), e) == simplices.end()) continue;
+        double V = 0;
+        for (const auto p : in[e]) V += at_[p].w * points[p].Omega;
+        volume += V;
+        add(sum, at_[in[e][0]].mean, V);
+        of_patch.insert(of_patch.end(), in[e].begin(), in[e].end());
+      }
+      if (of_patch.empty()) continue;
+      add(mean, sum, 1 / volume);
+      for (const auto p : of_patch) at_[p].mean = mean;
+    }
+  }
+  static void add(std::map<int, Vec<3>>& sum, const std::map<int, Vec<3>>& B, double factor) {
+    for (const auto& [n, B_n] : B) {
+      for (int j = 0; j < 3; ++j) sum[n][j] += factor * B_n[j];
+    }
+  }
+
+  /// Do the points of a cell of a grid fill it?
+  bool is_filled(const std::vector<std::size_t>& in) const {
+    double V = 1, filled = 0;
+    for (const double h : body_.mesh->grid->spacing) V *= h;
+    for (const auto k : in) filled += points[k].Omega;
+    return filled > 0.5 * V && filled < 2 * V;
   }
 
   /// Corrected quadrature inside the soil, as in docs/theory.md. Numbers of nodes are those of the mesh.

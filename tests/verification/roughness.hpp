@@ -12,9 +12,11 @@ inline double slope_top(double x) {
 
 /// Elements of size h, points `spacing` apart, or what makes a whole number of them; starts from the stress of level
 /// ground under each point.
-inline Body<2> soft_slope(Cells cells, double h, double spacing, double nu) {
+inline Body<2> soft_slope(Cells cells, double h, double spacing, double nu,
+                          GridFunctions shape = GridFunctions::linear) {
   const std::array<int, 2> elements{static_cast<int>(std::lround(12 / h)), static_cast<int>(std::lround(5 / h))};
-  Body<2> body(std::make_unique<const Mesh<2>>(cut_up(make_grid({0, 0}, {12, 5}, elements), cells)), {0, -Soil::g});
+  Body<2> body(std::make_unique<const Mesh<2>>(cut_up(make_grid({0, 0}, {12, 5}, elements, shape), cells)),
+               {0, -Soil::g});
   const double columns = std::round(12 / spacing), rows = std::round(4 / spacing);
   std::vector<Place> places;
   for (int j = 0; j < rows; ++j) {
@@ -97,8 +99,9 @@ inline double roughness(const Body<2>& body) {
 }
 
 /// The same of a slope that has had two seconds to come to rest with local damping: some ten periods of its shear.
-inline double roughness_at_rest(const Scheme& scheme, Cells cells, double h, double spacing, double nu = 0.49) {
-  auto body = soft_slope(cells, h, spacing, nu);
+inline double roughness_at_rest(const Scheme& scheme, Cells cells, double h, double spacing, double nu = 0.49,
+                                GridFunctions shape = GridFunctions::linear) {
+  auto body = soft_slope(cells, h, spacing, nu, shape);
   StepSettings settings;
   settings.scheme = scheme;
   settings.damping = 0.7;

@@ -334,6 +334,10 @@ struct Linear<T4> : detail::Simplex<3> {};
 template <>
 struct Linear<H8> : detail::Box<3> {};
 
+/// Triangles and tetrahedra: B_i are constant.
+template <class B>
+inline constexpr bool is_simplex = B::nodes == B::dim + 1;
+
 /// Does the basis describe the meridian plane of a body of revolution (mesh/axisymmetric.hpp)?
 template <class B>
 inline constexpr bool is_axisymmetric = requires {

@@ -330,6 +330,8 @@ struct GridGimp {
       detail::products<Dim, each>(f, g, N, B);
     }
 
+    const Vec<Dim>& inverse() const { return cell_.inverse; }  ///< ds_d/dx_d [1/m]
+
    private:
     template <class T>
     void along_axes(const Local<T>& at, std::array<std::array<T, each>, Dim>& f,

@@ -27,11 +27,21 @@ std::size_t largest_shift(const Mesh<Dim>& mesh) {
   return static_cast<std::size_t>(most);
 }
 
+/// B̄_i that a cell of GIMP keeps.
+template <int Dim>
+std::size_t mean_gradient_row(const Mesh<Dim>& mesh) {
+  return mesh.grid && mesh.grid->functions == GridFunctions::gimp ? transfer::Means<GridGimp<Dim>>::size : 0;
+}
+
 }  // namespace
 
 template <int Dim>
 Body<Dim>::Body(std::unique_ptr<const Mesh<Dim>> background, const Vec<Dim>& gravitational_acceleration)
-    : mesh(std::move(background)), locator(*mesh), conditions(mesh->node_count()), gravity(gravitational_acceleration) {
+    : mesh(std::move(background)),
+      patches(*mesh),
+      locator(*mesh),
+      conditions(mesh->node_count()),
+      gravity(gravitational_acceleration) {
   buffers.shift_row = largest_shift(*mesh);
 }
 
@@ -60,6 +70,8 @@ void make_room(Body<Dim>& body) {
   buffers.weight.reserve(elements);
   buffers.mean_dilatation.reserve(elements);
   buffers.left.reserve(elements);
+  buffers.mean_gradient.reserve(elements * mean_gradient_row(*body.mesh));
+  if (!body.patches.empty()) buffers.patch_share.reserve(elements);
   buffers.changed.reserve(body.mesh->types.size());
   buffers.is_changed.assign(body.mesh->types.size(), 0);
   buffers.shift.reserve(elements * buffers.shift_row);
@@ -160,6 +172,8 @@ void rebuild(Body<Dim>& body) {
   buffers.weight.assign(slots, 1.0);
   buffers.mean_dilatation.assign(slots, 0);
   buffers.left.assign(slots, 0);
+  buffers.mean_gradient.resize(slots * mean_gradient_row(*body.mesh));
+  if (!body.patches.empty()) buffers.patch_share.assign(slots, {});
   buffers.shift.resize(slots * buffers.shift_row);
   if (body.mesh->axisymmetric) buffers.hoop_shift.resize(slots * padded_row(body.assembly.row()));
   buffers.mass_matrix.resize(slots * mass_matrix_row(body.assembly.row()));

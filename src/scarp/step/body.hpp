@@ -9,6 +9,7 @@
 #include "scarp/exec/assembly.hpp"
 #include "scarp/mesh/locate.hpp"
 #include "scarp/mesh/mesh.hpp"
+#include "scarp/mesh/patches.hpp"
 #include "scarp/points/points.hpp"
 #include "scarp/step/books.hpp"
 #include "scarp/step/nonlocal.hpp"
@@ -36,6 +37,13 @@ struct Resistance {
   Vec<Dim> F_dashpot{};   ///< of an absorbing side
 };
 
+/// What a triangle or tetrahedron has of the mean dilatation of its patch (patches.hpp).
+struct PatchShare {
+  double V = 0;      ///< its volume; zero where it has none
+  double p = 0;      ///< mean stress of its points
+  double theta = 0;  ///< its own volume strain
+};
+
 /// Buffers of a step.
 template <int Dim>
 struct Buffers {
@@ -45,7 +53,9 @@ struct Buffers {
   Column shift;                      ///< transfer::Shift of its quadrature, as stored: shift_row numbers
   std::size_t shift_row = 0;
   std::vector<std::uint8_t> left;             ///< has a point left it in this step?
-  std::vector<std::uint8_t> mean_dilatation;  ///< is the volume strain of its points their mean?
+  std::vector<std::uint8_t> mean_dilatation;  ///< is the volume strain of its points a mean?
+  Column mean_gradient;                       ///< B̄_i of such a cell of GIMP
+  std::vector<PatchShare> patch_share;        ///< of triangles and tetrahedra
   Column hoop_shift;                          ///< the same of N_i / r, in a body of revolution
   Column mass_matrix;                         ///< M_ij, where elements keep it
   // Of each place of the assembly:
@@ -71,6 +81,7 @@ struct Body {
   Body(std::unique_ptr<const Mesh<Dim>> background, const Vec<Dim>& gravitational_acceleration);
 
   std::unique_ptr<const Mesh<Dim>> mesh;
+  Patches patches;  ///< of its triangles or tetrahedra
   Locator<Dim> locator;
   Conditions<Dim> conditions;
   Vec<Dim> gravity;

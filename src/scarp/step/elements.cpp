@@ -8,6 +8,8 @@
 #include "scarp/exec/gap_sharing.hpp"
 #include "scarp/exec/parallel.hpp"
 #include "scarp/mesh/with_basis.hpp"
+#include "scarp/step/element.hpp"
+#include "scarp/step/patches.hpp"
 #include "scarp/step/phases.hpp"
 #include "scarp/transfer/transfer.hpp"
 
@@ -26,9 +28,23 @@ void for_each_element(const Body<Dim>& body, int first, int last, F&& f) {
   with_basis<Dim>(*body.mesh, body.active.element.data(), first, last, f);
 }
 
-template <int Dim>
-PointRange points_of(const Block<Dim>& block, int slot) {
-  return {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]};
+/// What the mean stress of an element acts on: B̄_i of its own, or those of a patch, to which it then goes.
+template <class Basis>
+void use_means(Buffers<Basis::dim>& buffers, int slot, const transfer::ElementSums<Basis>& sums,
+               transfer::Means<Basis>& means, transfer::Quadrature<Basis>& quadrature) {
+  if constexpr (is_simplex<Basis>) {
+    buffers.patch_share[slot] = {means.V, xsimd::hadd(sums.Omega_mean) / xsimd::hadd(sums.Omega), 0};
+  } else {
+    if constexpr (transfer::keeps_means<Basis>) {
+      const transfer::Lane<Basis> per_volume(1 / std::max(1e-300, xsimd::hadd(sums.Omega_share)));
+      means.gradient = transfer::totals<Basis>(sums.Omega_B);
+      for (auto& component : means.gradient) {
+        for (auto& batch : component) batch *= per_volume;
+      }
+      means.store(buffers.mean_gradient.data() + slot * transfer::Means<Basis>::size);
+    }
+    quadrature.means = &means;
+  }
 }
 
 /// Step 1 in an element; adds Σ m_p |v_p|² of its points to m_v2.
@@ -39,11 +55,8 @@ SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, const Places& places, cons
   const typename Basis::Cell cell(*body.mesh, e);
   const transfer::ShapesAtPoints<Basis> shapes(cell);
   std::optional<transfer::Means<Basis>> means;  // of an element inside the soil
-  bool mean_dilatation = false;
-  if constexpr (Basis::corrects) {
-    if (settings.quadrature == Quadrature::corrected && buffers.inside[slot]) means.emplace(cell);
-    if constexpr (transfer::has_shift<Basis>) mean_dilatation = means && settings.scheme.mean_dilatation;
-  }
+  if (settings.quadrature == Quadrature::corrected && buffers.inside[slot]) means.emplace(cell);
+  bool mean_dilatation = means && settings.scheme.mean_dilatation;
   transfer::ElementSums<Basis> sums;
   for (;;) {
     for (const auto& block : body.blocks) {
@@ -61,8 +74,9 @@ SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, const Places& places, cons
     if (means && transfer::fills(volume, *means)) {
       quadrature = transfer::full_element<Basis>(cell, *means, volume, sums.shift, transfer::totals<Basis>(sums.hoop));
     }
-    if (mean_dilatation) quadrature.means = &*means;
   }
+  if constexpr (is_simplex<Basis>) buffers.patch_share[slot] = {};
+  if (mean_dilatation) use_means<Basis>(buffers, slot, sums, *means, quadrature);
   buffers.weight[slot] = quadrature.weight;
   buffers.mean_dilatation[slot] = mean_dilatation;
   quadrature.shift.store(buffers.shift.data() + slot * buffers.shift_row);
@@ -75,15 +89,6 @@ SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, const Places& places, cons
   }
   transfer::add_to_nodes<Basis>(sums, transfer::internal_force<Basis>(sums, quadrature), body.assembly.places_of(slot),
                                 buffers.sums.data());
-}
-
-/// The Motion of the local nodes of an element, from component `first` on.
-template <class Basis>
-transfer::NodeRows<Basis> motion_of_nodes(const Body<Basis::dim>& body, int e, int first = 0) {
-  const int* n = body.mesh->element_nodes(e).data();
-  transfer::NodeRows<Basis> rows;
-  for (int i = 0; i < Basis::nodes; ++i) rows[i] = body.buffers.motion[n[i]].row.data() + first;
-  return rows;
 }
 
 /// Σ_j M_ij w_j of the first n components w of the nodes' Motion, of all of them those from `from` on, in an element
@@ -103,14 +108,6 @@ SCARP_FLATTEN void add_momentum_of_points(Body<Basis::dim>& body, int slot, int 
       transfer::add_momentum<Basis, Dim, size, n - Dim>(cell, block.points, range, rows, places, momentum);
     }
   }
-}
-
-/// Zero in the places of the elements from slot `first` on, n numbers each.
-template <int Dim>
-void clear_places(const Body<Dim>& body, int first, Column& numbers, int n) {
-  const int chunk = first / body.assembly.chunk();
-  std::fill(numbers.begin() + static_cast<std::ptrdiff_t>(body.assembly.first_place(chunk)) * n,
-            numbers.begin() + static_cast<std::ptrdiff_t>(body.assembly.last_place(chunk)) * n, 0.0);
 }
 
 template <int Dim>
@@ -199,30 +196,26 @@ struct MoveRules {
   bool mends_massless;  ///< and there are such nodes
 };
 
-/// A node that no point has a share in, in an element whose points lie on a line, has no velocity of its own. In place
-/// of none it takes the mean of the element's other nodes: a body that moves is not strained where it ends on a line.
-template <class Basis>
-void mend_massless(const Body<Basis::dim>& body, int e, transfer::NodeRows<Basis>& rows,
-                   transfer::Motion<Basis::dim>& mean) {
-  const int* n = body.mesh->element_nodes(e).data();
-  int heavy = 0;
-  for (int i = 0; i < Basis::nodes; ++i) {
-    if (body.buffers.node[n[i]].m == 0) continue;
-    ++heavy;
-    for (std::size_t c = 0; c < mean.row.size(); ++c) mean.row[c] += rows[i][c];
-  }
-  for (double& x : mean.row) x /= std::max(heavy, 1);
-  for (int i = 0; i < Basis::nodes; ++i) {
-    if (body.buffers.node[n[i]].m == 0) rows[i] = mean.row.data();
-  }
-}
-
 /// What the sweep of steps 4 and 6 to 11 adds up over a chunk.
 template <int Dim>
 struct MotionBooks {
   transfer::MotionSums<Dim> sums;
   std::int64_t stayed = 0;  ///< points that did not leave their element
 };
+
+/// The volume strain of all points of an element.
+template <class Basis>
+double mean_dilation(const Body<Basis::dim>& body, int slot, const typename Basis::Cell& cell,
+                     const transfer::NodeRows<Basis>& motion) {
+  using Means = transfer::Means<Basis>;
+  if constexpr (is_simplex<Basis>) {
+    return mean_over_patch(body, body.active.element[slot], &PatchShare::theta);
+  } else if constexpr (transfer::keeps_means<Basis>) {
+    return Means::dilation(body.buffers.mean_gradient.data() + slot * Means::size, motion, Basis::dim);
+  } else {
+    return transfer::mean_dilation<Basis>(cell, motion);
+  }
+}
 
 /// Steps 4, 6, 8, 9, 10 and 11 for the points of a block in an element.
 template <bool pic, class Basis>
@@ -247,9 +240,7 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
     const int* n = body.mesh->element_nodes(e).data();
     for (int i = 0; i < Basis::nodes; ++i) element.a_dt[i] = body.buffers.a_dt[n[i]].data();
   }
-  if constexpr (transfer::has_shift<Basis>) {
-    if (element.mean_dilatation) element.mean_dilation = transfer::mean_dilation<Basis>(cell, element.motion);
-  }
+  if (element.mean_dilatation) element.mean_dilation = mean_dilation<Basis>(body, slot, cell, element.motion);
   const std::int64_t changed = books.changed_element;
   transfer::nodes_to_points<pic, Basis>(
       cell, element, rules.motion, block.points, points_of(block, slot), strains, at, motion.sums,

@@ -2,15 +2,11 @@
 
 #include "scarp/exec/elastic_energy.hpp"
 #include "scarp/mesh/with_basis.hpp"
+#include "scarp/step/element.hpp"
 #include "scarp/transfer/transfer.hpp"
 
 namespace scarp::step {
 namespace {
-
-template <int Dim>
-PointRange points_of(const Block<Dim>& block, int slot) {
-  return {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]};
-}
 
 template <int Dim>
 void note(Buffers<Dim>& buffers, int e) {

@@ -52,7 +52,7 @@ struct Scheme {
   bool two_terms = false;                                     ///< P on changes of velocity and displacements
   bool affine = false;                                        ///< points carry C_p
   bool middle = false;           ///< strain and spin of the middle of the step, of second order
-  bool mean_dilatation = false;  ///< in full quadrilaterals, hexahedra and cells the volume strain is their mean
+  bool mean_dilatation = false;  ///< volume strain is a mean over full elements, or patches of simplices
   bool shares_gaps = false;      ///< what points of an element have opened they share (exec/gap_sharing.hpp)
   double lateness = 0;  ///< η: a point may be so far (in parts of the element) beyond its element and stay in it
   bool smooth = false;  ///< local damping follows the velocity through zero instead of its sign

@@ -30,6 +30,8 @@ class ShapesAtPoints {
  public:
   explicit ShapesAtPoints(const typename Basis::Cell& cell) : cell_(cell) {}
 
+  const typename Basis::Cell& cell() const { return cell_; }
+
   template <class Lanes, class F>
   void with(const Points<Dim>& points, const Lanes& p, F&& f) const {
     std::array<T, K> N;

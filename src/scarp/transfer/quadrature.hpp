@@ -15,6 +15,14 @@
 // Mean dilatation, against volumetric locking: the volume strain of all points of a full element is its mean there, of
 // the gradients B̄_i = (1/V) ∫ ∇N_i dV = Σ Ω_p B̂_i(x_p) / Σ Ω_p, and the mean stress acts on these alone:
 //     L_p ← L_p + (1/d) (tr L̄ − tr L_p) I,   F_i = w Σ Ω_p (σ_p − s_p I) · B̂_i + w (Σ Ω_p s_p) B̄_i,   s_p = tr σ_p / d.
+// In a simplex, of one volume strain anyway, both are means over a patch of neighbours (step/patches.hpp).
+//
+// The domains of GIMP's points overlap cells and are no partition of one: w = 1 and s_i = 0. Its functions are
+// continuous where a point crosses a line, and so the mean has to be: a point takes part in it with a share γ_p that
+// falls from 1 to 0 as its domain comes to lie across the line,
+//     B̄_i = Σ γ_p Ω_p B_i(x_p) / Σ γ_p Ω_p,   L_p ← L_p + (γ_p/d) (Σ du_i · B̄_i / dt − tr L_p) I,
+//     F_i = Σ Ω_p (σ_p − γ_p s_p I) · B_i + (Σ γ_p Ω_p s_p) B̄_i.
+// (Ground at rest heated without end where every point of a cell had the same share.)
 //
 // The sums over the points need no second pass: Σ B̂_iᵀ σ_p Ω̂_p = w (Σ B_iᵀ σ_p Ω_p + s_iᵀ Σ σ_p Ω_p).
 #pragma once
@@ -108,6 +116,51 @@ requires(SplineFunctions<GridSpline<Dim>, Lane<GridSpline<Dim>>>::possible) stru
     });
   }
 };
+
+/// A cell of GIMP: B̄_i of its points.
+template <int Dim>
+struct Means<GridGimp<Dim>> {
+  using Basis = GridGimp<Dim>;
+  static constexpr int size = Dim * nodal_size<Basis>;  ///< of the numbers that store() writes
+  double V = 1;
+  std::array<Nodal<Basis>, Dim> gradient;
+
+  explicit Means(const typename Basis::Cell& cell) {
+    for (const double per_edge : cell.inverse()) V /= per_edge;
+  }
+  void store(double* to) const {
+    repeat<Dim>([&](auto j) { store_nodal<Basis>(gradient[j], to + j * nodal_size<Basis>); });
+  }
+  /// Σ du_i · B̄_i for the displacements of the nodes, that begin in component `first` of their rows.
+  static double dilation(const double* gradient, const NodeRows<Basis>& motion, int first) {
+    Lane<Basis> sum(0.0);
+    repeat<Dim>([&](auto j) {
+      const auto du = nodal<Basis>([&](int i) { return motion[i][first + j]; });
+      repeat<nodal_batches<Basis>>([&](auto b) {
+        const double* from = gradient + j * nodal_size<Basis> + b * lanes_of<Lane<Basis>>;
+        sum = fma(du[b], Lane<Basis>::load_unaligned(from), sum);
+      });
+    });
+    return xsimd::hadd(sum);
+  }
+};
+
+/// Does the element keep B̄_i from its points for the strain?
+template <class Basis>
+inline constexpr bool keeps_means = Basis::has_domains;
+
+/// γ_p of a point with a domain: 1 where that is within the cell, 0 where the point is on a line to the next.
+template <class Basis, class Local>
+inline auto share_of_mean(const Local& at) {
+  using T = typename Local::value_type;
+  constexpr double tiny = 1e-300;  // without a domain: 1
+  T share(1.0);
+  for (int d = 0; d < Basis::dim; ++d) {
+    const T within = max(T(0.0), min(at.s[d], T(1.0) - at.s[d]));
+    share *= min(T(1.0), (within + T(tiny)) / (at.lambda[d] + T(tiny)));
+  }
+  return share;
+}
 
 /// What the step uses for an element's points: w and s_i; as constructed, eq. 4 as printed.
 template <class Basis>

@@ -10,7 +10,7 @@ namespace scarp::transfer {
 
 /// Is there one? In a simplex B_i is constant and its own mean.
 template <class Basis>
-inline constexpr bool has_shift = Basis::corrects&& Basis::nodes != Basis::dim + 1;
+inline constexpr bool has_shift = Basis::corrects && !is_simplex<Basis>;
 
 /// Σ Ω_p B_i over the points.
 template <class Basis>

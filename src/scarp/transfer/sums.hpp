@@ -46,16 +46,18 @@ struct ElementSums {
   using OfNodes = WideNodal<Basis>;
   using OfPoints = PointBatch<dim>;
 
-  OfNodes m;                                        ///< Σ m_p N_i
-  std::array<OfNodes, dim> p;                       ///< Σ m_p v_p N_i
-  std::array<OfNodes, dim> F;                       ///< Σ B_iᵀ σ_p Ω_p
-  ShiftSums<Basis> shift;                           ///< what s_i follows from
-  std::array<OfNodes, Hoop<Basis>{}.size()> hoop;   ///< Σ Ω_p N_i / r
-  std::array<OfNodes, rows> M;                      ///< Σ m_p N_i N_{i+k}
-  OfPoints m_v2 = OfPoints(0.0);                    ///< Σ m_p |v_p|²
-  OfPoints Omega = OfPoints(0.0);                   ///< Σ Ω_p
-  OfPoints Omega_mean = OfPoints(0.0);              ///< Σ Ω_p s_p, of mean stresses that were left out of the others
-  std::array<OfPoints, sym_size<dim>> Omega_sigma;  ///< Σ Ω_p σ_p
+  OfNodes m;                                       ///< Σ m_p N_i
+  std::array<OfNodes, dim> p;                      ///< Σ m_p v_p N_i
+  std::array<OfNodes, dim> F;                      ///< Σ B_iᵀ σ_p Ω_p
+  ShiftSums<Basis> shift;                          ///< what s_i follows from
+  std::array<OfNodes, Hoop<Basis>{}.size()> hoop;  ///< Σ Ω_p N_i / r
+  std::array<OfNodes, rows> M;                     ///< Σ m_p N_i N_{i+k}
+  OfPoints m_v2 = OfPoints(0.0);                   ///< Σ m_p |v_p|²
+  OfPoints Omega = OfPoints(0.0);                  ///< Σ Ω_p
+  OfPoints Omega_mean = OfPoints(0.0);             ///< Σ Ω_p s_p, of mean stresses that were left out of the others
+  std::array<OfNodes, keeps_means<Basis> ? dim : 0> Omega_B;  ///< with these, Σ γ_p Ω_p B_i
+  OfPoints Omega_share = OfPoints(0.0);                       ///< Σ γ_p Ω_p, of GIMP
+  std::array<OfPoints, sym_size<dim>> Omega_sigma;            ///< Σ Ω_p σ_p
 
   ElementSums() {
     clear<Basis>(m);
@@ -65,6 +67,7 @@ struct ElementSums {
     });
     repeat<rows>([&](auto k) { clear<Basis>(M[k]); });
     if constexpr (is_axisymmetric<Basis>) clear<Basis>(hoop[0]);
+    if constexpr (keeps_means<Basis>) repeat<dim>([&](auto j) { clear<Basis>(Omega_B[j]); });
     repeat<sym_size<dim>>([&](auto c) { Omega_sigma[c] = OfPoints(0.0); });
   }
 };
@@ -122,13 +125,21 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Places& p
       if constexpr (used) return T(c < 3 ? 1 : 1 / sqrt2) * p.load(felt[c]);
       return T(0.0);
     });
+    T volume_of_mean = volume;
     if (apart) {
       T mean = felt_here[0] + felt_here[1];
       if constexpr (mean_directions<Basis> == 3) mean += felt_here[2];
       mean *= T(1.0 / mean_directions<Basis>);
+      if constexpr (keeps_means<Basis>) {
+        const T share = share_of_mean<Basis>(local_coordinates<Basis>(shapes.cell(), points, p));
+        mean *= share;
+        volume_of_mean *= share;
+        sums.Omega_share += volume_of_mean;
+      }
       repeat<mean_directions<Basis>>([&](auto j) { felt_here[j] -= mean; });
       sums.Omega_mean = fma(volume, mean, sums.Omega_mean);
     }
+    const auto volume_of_mean_of = OfPoints<Basis>(volume_of_mean);
     const auto sigma_of = make_array<components>([&](auto c) {
       sums.Omega_sigma[c] = fma(volume, felt_here[c], sums.Omega_sigma[c]);
       return OfPoints<Basis>(volume * felt_here[c]);
@@ -158,6 +169,15 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Places& p
           });
         });
         sums.shift.add(Omega, here);
+        if constexpr (keeps_means<Basis>) {
+          if (apart) {
+            const W Omega_share = volume_of_mean_of.of(l);
+            repeat<Dim>([&](auto j) {
+              repeat<nodal_batches<Basis>>(
+                  [&](auto b) { sums.Omega_B[j][b] = fma(Omega_share, here.B[j][b], sums.Omega_B[j][b]); });
+            });
+          }
+        }
         if constexpr (is_axisymmetric<Basis>) {
           const W r = of_points<Basis>(p, points.x[0]).of(l), per_r = select(Omega > W(0.0), W(1.0) / r, W(0.0));
           repeat<nodal_batches<Basis>>([&](auto b) {
@@ -211,7 +231,7 @@ inline std::array<Nodal<Basis>, Basis::dim> internal_force(const ElementSums<Bas
   const auto Omega_sigma = make_array<sym_size<Dim>>([&](auto c) { return xsimd::hadd(sums.Omega_sigma[c]); });
   auto F = totals<Basis>(sums.F);
   quadrature.shift.add_force(Omega_sigma, F);
-  if constexpr (has_shift<Basis>) {
+  if constexpr (has_shift<Basis> || keeps_means<Basis>) {
     if (quadrature.means) {
       const T mean(xsimd::hadd(sums.Omega_mean));
       repeat<nodal_batches<Basis>>([&](auto b) {

@@ -136,7 +136,7 @@ struct ElementMotion {
   const double* shift;                 ///< Shift of its quadrature, as stored
   double weight, size;                 ///< w of its quadrature, and its least height
   const double* hoop_shift = nullptr;  ///< that of N_i / r, in a body of revolution
-  bool mean_dilatation = false;        ///< is the volume strain of its points their mean,
+  bool mean_dilatation = false;        ///< is the volume strain of its points a mean,
   double mean_dilation = 0;            ///< this one?
 };
 
@@ -185,21 +185,8 @@ inline Gradients<T, Basis::dim> gradients_at(const ElementMotion<Basis>& element
 
 /// Σ du_i · B̄_i of an element of mean dilatation, in a body of revolution with the mean of N_i / r, too.
 template <class Basis>
-inline double mean_dilation(const typename Basis::Cell& cell, const NodeRows<Basis>& motion) {
+inline double mean_dilation(const Means<Basis>& mean, const NodeRows<Basis>& motion) {
   constexpr int Dim = Basis::dim;
-  if constexpr (std::is_same_v<Basis, GridLinear<Dim>>) {  // B̄_i = ± 2 / (K h) along each axis
-    double sum = 0;
-    repeat<Dim>([&](auto d) {
-      double along = 0;
-      repeat<Basis::nodes>([&](auto i) {
-        const double du = motion[i][Dim + d];
-        along += scarp::detail::far_side(i, d) ? du : -du;
-      });
-      sum += along * cell.inverse()[d];
-    });
-    return sum * (2.0 / Basis::nodes);
-  }
-  const Means<Basis> mean(cell);
   Lane<Basis> sum(0.0);
   repeat<Dim>([&](auto j) {
     const auto du = nodal<Basis>([&](int i) { return motion[i][Dim + j]; });
@@ -211,6 +198,25 @@ inline double mean_dilation(const typename Basis::Cell& cell, const NodeRows<Bas
     });
   });
   return xsimd::hadd(sum);
+}
+
+/// The same from the cell.
+template <class Basis>
+inline double mean_dilation(const typename Basis::Cell& cell, const NodeRows<Basis>& motion) {
+  if constexpr (std::is_same_v<Basis, GridLinear<Basis::dim>>) {  // B̄_i = ± 2 / (K h) along each axis
+    double sum = 0;
+    repeat<Basis::dim>([&](auto d) {
+      double along = 0;
+      repeat<Basis::nodes>([&](auto i) {
+        const double du = motion[i][Basis::dim + d];
+        along += scarp::detail::far_side(i, d) ? du : -du;
+      });
+      sum += along * cell.inverse()[d];
+    });
+    return sum * (2.0 / Basis::nodes);
+  } else {
+    return mean_dilation<Basis>(Means<Basis>(cell), motion);
+  }
 }
 
 /// Steps 4 (eq. 6: v_p = φ v_p + Σ c_i N_i; step.cpp), 6, 8, 9 and 10: L dt = Σ du_i ⊗ B_i (eq. 9), strain and
@@ -258,12 +264,11 @@ inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotio
     sums.mass += m;
     sums.kinetic_energy = fma(m, v2, sums.kinetic_energy);
     sums.fastest2 = max(sums.fastest2, select(m > T(0.0), v2, T(0.0)));  // lanes without a point have any v
-    if constexpr (has_shift<Basis>) {
-      if (element.mean_dilatation) {
-        const T more = (T(element.mean_dilation) - g.trace()) * T(1.0 / mean_directions<Basis>);
-        repeat<Dim>([&](auto j) { g.L[j][j] += more; });
-        if constexpr (is_axisymmetric<Basis>) g.hoop += more;
-      }
+    if (element.mean_dilatation) {
+      T more = (T(element.mean_dilation) - g.trace()) * T(1.0 / mean_directions<Basis>);
+      if constexpr (keeps_means<Basis>) more *= share_of_mean<Basis>(local);
+      repeat<Dim>([&](auto j) { g.L[j][j] += more; });
+      if constexpr (is_axisymmetric<Basis>) g.hoop += more;
     }
     const T Omega = p.load(points.volume) * determinant_of_stretch(g.L) * (T(1.0) + g.hoop);
     p.store(Omega, points.volume);
