@@ -99,9 +99,10 @@ TEST(Slope, StandsAndFailsAfterTheCut) {
   // A static solution on finer elements settles by 0.151 m (theory.md, initial state), without the release by 0.18 m.
   EXPECT_NEAR(rest["max_displacement"].get<double>(), 0.15, 0.02);
 
-  // It fails: metres, where the uncut slope moves by a centimetre. How far depends on mesh and PIC share (4 to 8 m).
-  EXPECT_GT(cut["max_displacement"].get<double>(), 3.0);
-  EXPECT_LT(cut["max_displacement"].get<double>(), 12.0);
+  // It fails: metres, where the uncut slope moves by a centimetre. On elements of 1 m the point that goes furthest goes
+  // 12.3 m (11.2 m with sides that are held in place of absorbing), 98 % of what moves 0.9 m beyond x = 30.
+  EXPECT_GT(cut["max_displacement"].get<double>(), 9.0);
+  EXPECT_LT(cut["max_displacement"].get<double>(), 15.0);
   // The slide is over by then: what still moves are small surges of the steep debris, below 5 % of the energy at peak.
   const auto& kinetic = slope.history.at("kinetic_energy");
   EXPECT_LT(kinetic.back(), 0.05 * *std::max_element(kinetic.begin(), kinetic.end()));
