@@ -15,7 +15,8 @@ struct Counts {
 template <int Dim>
 Counts count(Body<Dim>& body, int steps, const Scheme& scheme = {}) {
   Counts counts;
-  const StepSettings settings{.scheme = scheme};
+  StepSettings settings;
+  settings.scheme = scheme;
   const double dt = 0.3 * critical_time_step(body);
   advance(body, dt, settings);  // the first step sizes its buffers
   const long before = allocations();
