@@ -12,6 +12,7 @@ import dataclasses
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -72,7 +73,7 @@ def cut(study, name, h=0.8, spacing=None, shift=0.0, case=CUT, threads=1, **of_m
     """The cut slope with elements of h; `shift` moves its surface and the cut to the right and up, over mesh and points."""
     s = shift
     changes = {"method": method(**of_method), "stage.cut.duration": 20.0, "output.every": 1.0, "output.history": 0.05}
-    if case == CUT:
+    if case != CUT_ON_MESH:
         changes |= {"mesh.grid": {"size": [45.0, 16.8], "elements": list(GRIDS[h])},
                     "region.slope.spacing": spacing or 0.4 * h}
     elif spacing:
@@ -90,11 +91,20 @@ def of_steps(h):
             for scheme in SCHEMES for safety in SAFETIES]
 
 
-def of_places(h):
+def held_sides(out):
+    """The case with sides that stay held: absorbing ones ask for linear functions."""
+    case = out / "held_sides.toml"
+    text = re.sub(r"^(absorbing|from) = .*\n", "", (ROOT / CUT).read_text(encoding="utf-8"), flags=re.MULTILINE)
+    if not case.exists() or case.read_text(encoding="utf-8") != text:
+        case.write_text(text, encoding="utf-8")
+    return str(case)
+
+
+def of_places(h, held):
     """Elements, points and functions; the run of the standard is in of_steps."""
     return [*(cut(f"place, h = {h}", f"shift {part} h", h, shift=part * h) for part in (0.3, 0.7)),
             *(cut(f"points, h = {h}", f"{part} h", h, spacing=part * h) for part in (0.33, 0.37, 0.5)),
-            *(cut(f"shape, h = {h}", shape, h, shape=shape) for shape in ("gimp", "b-spline"))]
+            *(cut(f"held sides, h = {h}", shape, h, case=held, shape=shape) for shape in ("linear", "gimp", "b-spline"))]
 
 
 def plain(name, h, spacing=None, **of_method):
@@ -190,11 +200,11 @@ def of_gap(out):
 
 
 def studies(out):
-    return {"steps": of_steps(0.8), "places": of_places(0.8),
+    return {"steps": of_steps(0.8), "places": of_places(0.8, held_sides(out)),
             "mesh": [cut("elements", f"h = {h}", h) for h in (1.2, 0.6)],
             "waves": [cut("damping of 5 ms", f"h = {h}", h, stress_damping_time=0.005) for h in (0.8, 0.4)],
             "threads": [cut("threads", "two", threads=2)],
-            "fine": of_steps(0.4), "fine places": of_places(0.4),
+            "fine": of_steps(0.4), "fine places": of_places(0.4, held_sides(out)),
             "triangles": [cut("slope_cut", f"safety {safety}", case=CUT_ON_MESH, safety=safety) for safety in SAFETIES],
             "plain": of_plain(), "undrained": of_undrained(), "column": of_columns(), "gap": of_gap(out)}
 
