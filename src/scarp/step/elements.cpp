@@ -69,9 +69,10 @@ SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, const Places& places, cons
   const bool mean_dilatation =
       means && settings.scheme.mean_dilatation && transfer::fills(volume_of_points<Basis>(body, slot), *means);
   transfer::ElementSums<Basis> sums;
-  for (const auto& block : body.blocks) {
-    transfer::points_to_nodes<Basis>(shapes, places, block.points, points_of(block, slot), mean_dilatation, sums);
-  }
+  transfer::with_means<Basis>(mean_dilatation, [&](auto apart) {
+    for (const auto& block : body.blocks)
+      transfer::points_to_nodes<Basis>(shapes, places, block.points, points_of(block, slot), apart, sums);
+  });
   transfer::Quadrature<Basis> quadrature;
   if constexpr (Basis::corrects) {
     const double volume = xsimd::hadd(sums.Omega);
@@ -231,8 +232,8 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
                                          body.buffers.weight[slot],
                                          body.mesh->size[e],
                                          nullptr,
-                                         body.buffers.mean_dilatation[slot] != 0,
                                          0};
+  const bool mean_dilatation = body.buffers.mean_dilatation[slot] != 0;
   if constexpr (is_axisymmetric<Basis>) {
     element.hoop_shift = body.buffers.hoop_shift.data() + slot * padded_row(body.assembly.row());
   }
@@ -242,18 +243,20 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
     const int* n = body.mesh->element_nodes(e).data();
     for (int i = 0; i < Basis::nodes; ++i) element.a_dt[i] = body.buffers.a_dt[n[i]].data();
   }
-  if (element.mean_dilatation) element.mean_dilation = mean_dilation<Basis>(body, slot, cell, element.motion);
+  if (mean_dilatation) element.mean_dilation = mean_dilation<Basis>(body, slot, cell, element.motion);
   const std::int64_t changed = books.changed_element;
-  transfer::nodes_to_points<pic, Basis>(
-      cell, element, rules.motion, block.points, points_of(block, slot), strains, at, motion.sums,
-      [&](const auto& p, const auto& x, const auto& before) {
-        const unsigned inside =
-            still_inside<Basis>(cell, p, x, before, body.locator.tolerance(), block.points,
-                                [&](const auto& xi) { return linger<Basis>(body, cell, e, xi, rules.lateness); });
-        motion.stayed += std::popcount(inside);
-        if (inside != first_bits(p.count())) [[unlikely]]
-          find_new_elements(body.locator, e, p, inside, block.points, books);
-      });
+  const auto moved = [&](const auto& p, const auto& x, const auto& before) {
+    const unsigned inside =
+        still_inside<Basis>(cell, p, x, before, body.locator.tolerance(), block.points,
+                            [&](const auto& xi) { return linger<Basis>(body, cell, e, xi, rules.lateness); });
+    motion.stayed += std::popcount(inside);
+    if (inside != first_bits(p.count())) [[unlikely]]
+      find_new_elements(body.locator, e, p, inside, block.points, books);
+  };
+  transfer::with_means<Basis>(mean_dilatation, [&](auto averaged) {
+    transfer::nodes_to_points<pic, Basis>(cell, element, rules.motion, block.points, points_of(block, slot), strains,
+                                          at, averaged, motion.sums, moved);
+  });
   if (books.changed_element != changed) [[unlikely]]
     body.buffers.left[slot] = 1;
 }
