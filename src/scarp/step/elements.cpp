@@ -58,21 +58,30 @@ void use_means(Buffers<Basis::dim>& buffers, int slot, const transfer::ElementSu
   }
 }
 
-template <class Basis, class Places>
+/// Is the volume strain of the points of an element a mean?
+template <class Basis>
+[[gnu::noinline]] bool has_mean_dilatation(const Body<Basis::dim>& body, const StepSettings& settings, int slot,
+                                           int e) {
+  if (!settings.scheme.mean_dilatation || settings.quadrature != Quadrature::corrected || !body.buffers.inside[slot])
+    return false;
+  const typename Basis::Cell cell(*body.mesh, e);
+  return transfer::fills(volume_of_points<Basis>(body, slot), transfer::Means<Basis>(cell));
+}
+
+template <class Basis, class Places, class Averaged>
 SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, const Places& places, const StepSettings& settings, int slot,
-                              int e) {
+                              int e, Averaged averaged) {
   auto& buffers = body.buffers;
   const typename Basis::Cell cell(*body.mesh, e);
   const transfer::ShapesAtPoints<Basis> shapes(cell);
   std::optional<transfer::Means<Basis>> means;  // of an element inside the soil
-  if (settings.quadrature == Quadrature::corrected && buffers.inside[slot]) means.emplace(cell);
-  const bool mean_dilatation =
-      means && settings.scheme.mean_dilatation && transfer::fills(volume_of_points<Basis>(body, slot), *means);
+  if constexpr (Basis::corrects || !std::is_same_v<Averaged, std::false_type>) {
+    if (settings.quadrature == Quadrature::corrected && buffers.inside[slot]) means.emplace(cell);
+  }
   transfer::ElementSums<Basis> sums;
-  transfer::with_means<Basis>(mean_dilatation, [&](auto apart) {
-    for (const auto& block : body.blocks)
-      transfer::points_to_nodes<Basis>(shapes, places, block.points, points_of(block, slot), apart, sums);
-  });
+  for (const auto& block : body.blocks) {
+    transfer::points_to_nodes<Basis>(shapes, places, block.points, points_of(block, slot), averaged, sums);
+  }
   transfer::Quadrature<Basis> quadrature;
   if constexpr (Basis::corrects) {
     const double volume = xsimd::hadd(sums.Omega);
@@ -80,10 +89,9 @@ SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, const Places& places, cons
       quadrature = transfer::full_element<Basis>(cell, *means, volume, sums.shift, transfer::totals<Basis>(sums.hoop));
     }
   }
-  if constexpr (is_simplex<Basis>) buffers.patch_share[slot] = {};
-  if (mean_dilatation) use_means<Basis>(buffers, slot, sums, *means, quadrature);
+  if (averaged) use_means<Basis>(buffers, slot, sums, *means, quadrature);
   buffers.weight[slot] = quadrature.weight;
-  buffers.mean_dilatation[slot] = mean_dilatation;
+  buffers.mean_dilatation[slot] = averaged;
   quadrature.shift.store(buffers.shift.data() + slot * buffers.shift_row);
   if constexpr (is_axisymmetric<Basis>) {
     transfer::store_nodal<Basis>(quadrature.hoop_shift[0],
@@ -221,9 +229,9 @@ double mean_dilation(const Body<Basis::dim>& body, int slot, const typename Basi
 }
 
 /// Steps 4, 6, 8, 9, 10 and 11 for the points of a block in an element.
-template <bool pic, class Basis>
+template <bool pic, class Basis, class Averaged>
 SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block, int slot, int e,
-                               const MoveRules& rules, Strains<Basis::dim>& strains, int at,
+                               const MoveRules& rules, Strains<Basis::dim>& strains, int at, Averaged averaged,
                                MotionBooks<Basis::dim>& motion, StepBooks<Basis::dim>& books) {
   const typename Basis::Cell cell(*body.mesh, e);
   transfer::ElementMotion<Basis> element{motion_of_nodes<Basis>(body, e),
@@ -233,7 +241,6 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
                                          body.mesh->size[e],
                                          nullptr,
                                          0};
-  const bool mean_dilatation = body.buffers.mean_dilatation[slot] != 0;
   if constexpr (is_axisymmetric<Basis>) {
     element.hoop_shift = body.buffers.hoop_shift.data() + slot * padded_row(body.assembly.row());
   }
@@ -243,20 +250,18 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
     const int* n = body.mesh->element_nodes(e).data();
     for (int i = 0; i < Basis::nodes; ++i) element.a_dt[i] = body.buffers.a_dt[n[i]].data();
   }
-  if (mean_dilatation) element.mean_dilation = mean_dilation<Basis>(body, slot, cell, element.motion);
+  if (averaged) element.mean_dilation = mean_dilation<Basis>(body, slot, cell, element.motion);
   const std::int64_t changed = books.changed_element;
-  const auto moved = [&](const auto& p, const auto& x, const auto& before) {
-    const unsigned inside =
-        still_inside<Basis>(cell, p, x, before, body.locator.tolerance(), block.points,
-                            [&](const auto& xi) { return linger<Basis>(body, cell, e, xi, rules.lateness); });
-    motion.stayed += std::popcount(inside);
-    if (inside != first_bits(p.count())) [[unlikely]]
-      find_new_elements(body.locator, e, p, inside, block.points, books);
-  };
-  transfer::with_means<Basis>(mean_dilatation, [&](auto averaged) {
-    transfer::nodes_to_points<pic, Basis>(cell, element, rules.motion, block.points, points_of(block, slot), strains,
-                                          at, averaged, motion.sums, moved);
-  });
+  transfer::nodes_to_points<pic, Basis>(
+      cell, element, rules.motion, block.points, points_of(block, slot), strains, at, averaged, motion.sums,
+      [&](const auto& p, const auto& x, const auto& before) {
+        const unsigned inside =
+            still_inside<Basis>(cell, p, x, before, body.locator.tolerance(), block.points,
+                                [&](const auto& xi) { return linger<Basis>(body, cell, e, xi, rules.lateness); });
+        motion.stayed += std::popcount(inside);
+        if (inside != first_bits(p.count())) [[unlikely]]
+          find_new_elements(body.locator, e, p, inside, block.points, books);
+      });
   if (books.changed_element != changed) [[unlikely]]
     body.buffers.left[slot] = 1;
 }
@@ -266,8 +271,10 @@ void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, co
                      Strains<Dim>& strains, StepBooks<Dim>& books) {
   MotionBooks<Dim> motion;
   for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
-    move_points<pic, Basis>(body, block, slot, e, rules, strains, block.begin[slot] - block.begin[first], motion,
-                            books);
+    transfer::with_means<Basis>(body.buffers.mean_dilatation[slot] != 0, [&](auto averaged) {
+      move_points<pic, Basis>(body, block, slot, e, rules, strains, block.begin[slot] - block.begin[first], averaged,
+                              motion, books);
+    });
   });
   book(motion.sums, books);
   books.search.own += motion.stayed;
@@ -302,11 +309,14 @@ void map_points_to_elements(Body<Dim>& body, const StepSettings& settings, StepB
   for_each_chunk(body, body.assembly.chunk(), books, [&](int first, int last, StepBooks<Dim>&) {
     clear_places(body, first, body.buffers.sums, transfer::node_sums<Dim>);
     for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
-      if (settings.scheme.affine) {
-        sum_points<Basis>(body, transfer::NodePlaces<Basis>(*body.mesh, e), settings, slot, e);
-      } else {
-        sum_points<Basis>(body, transfer::NoPlaces{}, settings, slot, e);
-      }
+      if constexpr (is_simplex<Basis>) body.buffers.patch_share[slot] = {};
+      transfer::with_means<Basis>(has_mean_dilatation<Basis>(body, settings, slot, e), [&](auto averaged) {
+        if (settings.scheme.affine) {
+          sum_points<Basis>(body, transfer::NodePlaces<Basis>(*body.mesh, e), settings, slot, e, averaged);
+        } else {
+          sum_points<Basis>(body, transfer::NoPlaces{}, settings, slot, e, averaged);
+        }
+      });
     });
   });
 }

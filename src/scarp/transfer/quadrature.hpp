@@ -146,8 +146,8 @@ struct Means<GridGimp<Dim>> {
   }
 };
 
-/// f(on) with `on` as a constant of the type where the basis has one volume strain or none corrected: what has no means
-/// is compiled as if there were none, and so the same to the last bit.
+/// f(on), with `on` as a constant where the basis has no mean of its own in the report's scheme either: what takes none
+/// is then compiled as if there were none, to the same last bit (a branch would change where products are fused).
 template <class Basis, class F>
 inline void with_means(bool on, F&& f) {
   if constexpr (has_shift<Basis>) {
