@@ -47,26 +47,24 @@ void use_means(Buffers<Basis::dim>& buffers, int slot, const transfer::ElementSu
   }
 }
 
-/// Step 1 in an element; adds Σ m_p |v_p|² of its points to m_v2.
-template <class Basis, class Places>
-SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, const Places& places, const StepSettings& settings, int slot,
-                              int e, PointBatch<Basis::dim>& m_v2) {
+/// Step 1 in an element; adds Σ m_p |v_p|² of its points to m_v2. With `averaged` the volume strain of its points is a
+/// mean; where it turns out not to be full, nothing has been added and the answer is false.
+template <class Basis, class Places, class Averaged>
+SCARP_FLATTEN bool sum_points(Body<Basis::dim>& body, const Places& places, const StepSettings& settings, int slot,
+                              int e, Averaged averaged, PointBatch<Basis::dim>& m_v2) {
   auto& buffers = body.buffers;
   const typename Basis::Cell cell(*body.mesh, e);
   const transfer::ShapesAtPoints<Basis> shapes(cell);
   std::optional<transfer::Means<Basis>> means;  // of an element inside the soil
-  if (settings.quadrature == Quadrature::corrected && buffers.inside[slot]) means.emplace(cell);
-  bool mean_dilatation = means && settings.scheme.mean_dilatation;
-  transfer::ElementSums<Basis> sums;
-  for (;;) {
-    for (const auto& block : body.blocks) {
-      transfer::points_to_nodes<Basis>(shapes, places, block.points, points_of(block, slot), mean_dilatation, sums);
-    }
-    if (!mean_dilatation || transfer::fills(xsimd::hadd(sums.Omega), *means)) [[likely]]
-      break;
-    mean_dilatation = false;  // few elements inside the soil are not full: they are summed up once more
-    sums = {};
+  if constexpr (Basis::corrects || !std::is_same_v<Averaged, std::false_type>) {
+    if (settings.quadrature == Quadrature::corrected && buffers.inside[slot]) means.emplace(cell);
   }
+  transfer::ElementSums<Basis> sums;
+  for (const auto& block : body.blocks) {
+    transfer::points_to_nodes<Basis>(shapes, places, block.points, points_of(block, slot), averaged, sums);
+  }
+  if (averaged && !transfer::fills(xsimd::hadd(sums.Omega), *means)) [[unlikely]]
+    return false;
   m_v2 += sums.m_v2;
   transfer::Quadrature<Basis> quadrature;
   if constexpr (Basis::corrects) {
@@ -75,10 +73,9 @@ SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, const Places& places, cons
       quadrature = transfer::full_element<Basis>(cell, *means, volume, sums.shift, transfer::totals<Basis>(sums.hoop));
     }
   }
-  if constexpr (is_simplex<Basis>) buffers.patch_share[slot] = {};
-  if (mean_dilatation) use_means<Basis>(buffers, slot, sums, *means, quadrature);
+  if (averaged) use_means<Basis>(buffers, slot, sums, *means, quadrature);
   buffers.weight[slot] = quadrature.weight;
-  buffers.mean_dilatation[slot] = mean_dilatation;
+  buffers.mean_dilatation[slot] = averaged;
   quadrature.shift.store(buffers.shift.data() + slot * buffers.shift_row);
   if constexpr (is_axisymmetric<Basis>) {
     transfer::store_nodal<Basis>(quadrature.hoop_shift[0],
@@ -89,6 +86,19 @@ SCARP_FLATTEN void sum_points(Body<Basis::dim>& body, const Places& places, cons
   }
   transfer::add_to_nodes<Basis>(sums, transfer::internal_force<Basis>(sums, quadrature), body.assembly.places_of(slot),
                                 buffers.sums.data());
+  return true;
+}
+
+/// Step 1 in an element; adds Σ m_p |v_p|² of its points to m_v2.
+template <class Basis, class Places>
+void sum_points(Body<Basis::dim>& body, const Places& places, const StepSettings& settings, int slot, int e,
+                PointBatch<Basis::dim>& m_v2) {
+  const bool averaged =
+      settings.scheme.mean_dilatation && settings.quadrature == Quadrature::corrected && body.buffers.inside[slot];
+  bool done = false;
+  const auto sum = [&](auto means) { done = sum_points<Basis>(body, places, settings, slot, e, means, m_v2); };
+  transfer::with_means<Basis>(averaged, sum);
+  if (!done) transfer::with_means<Basis>(false, sum);  // few elements inside the soil are not full
 }
 
 /// Σ_j M_ij w_j of the first n components w of the nodes' Motion, of all of them those from `from` on, in an element
@@ -218,9 +228,9 @@ double mean_dilation(const Body<Basis::dim>& body, int slot, const typename Basi
 }
 
 /// Steps 4, 6, 8, 9, 10 and 11 for the points of a block in an element.
-template <bool pic, class Basis>
+template <bool pic, class Basis, class Averaged>
 SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block, int slot, int e,
-                               const MoveRules& rules, Strains<Basis::dim>& strains, int at,
+                               const MoveRules& rules, Strains<Basis::dim>& strains, int at, Averaged averaged,
                                MotionBooks<Basis::dim>& motion, StepBooks<Basis::dim>& books) {
   const typename Basis::Cell cell(*body.mesh, e);
   transfer::ElementMotion<Basis> element{motion_of_nodes<Basis>(body, e),
@@ -229,7 +239,6 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
                                          body.buffers.weight[slot],
                                          body.mesh->size[e],
                                          nullptr,
-                                         body.buffers.mean_dilatation[slot] != 0,
                                          0};
   if constexpr (is_axisymmetric<Basis>) {
     element.hoop_shift = body.buffers.hoop_shift.data() + slot * padded_row(body.assembly.row());
@@ -240,10 +249,10 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
     const int* n = body.mesh->element_nodes(e).data();
     for (int i = 0; i < Basis::nodes; ++i) element.a_dt[i] = body.buffers.a_dt[n[i]].data();
   }
-  if (element.mean_dilatation) element.mean_dilation = mean_dilation<Basis>(body, slot, cell, element.motion);
+  if (averaged) element.mean_dilation = mean_dilation<Basis>(body, slot, cell, element.motion);
   const std::int64_t changed = books.changed_element;
   transfer::nodes_to_points<pic, Basis>(
-      cell, element, rules.motion, block.points, points_of(block, slot), strains, at, motion.sums,
+      cell, element, rules.motion, block.points, points_of(block, slot), strains, at, averaged, motion.sums,
       [&](const auto& p, const auto& x, const auto& before) {
         const unsigned inside =
             still_inside<Basis>(cell, p, x, before, body.locator.tolerance(), block.points,
@@ -263,7 +272,9 @@ template <bool pic, int Dim>
   MotionBooks<Dim> motion;
   for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
     const int at = block.begin[slot] - block.begin[first];
-    move_points<pic, Basis>(body, block, slot, e, rules, strains, at, motion, books);
+    transfer::with_means<Basis>(body.buffers.mean_dilatation[slot] != 0, [&](auto averaged) {
+      move_points<pic, Basis>(body, block, slot, e, rules, strains, at, averaged, motion, books);
+    });
     if (sharing) sharing->in_element(points_of(block, slot), body.mesh->size[e], at);
   });
   book(motion.sums, books);
@@ -300,6 +311,7 @@ void map_points_to_elements(Body<Dim>& body, const StepSettings& settings, StepB
     PointBatch<Dim> m_v2(0.0);
     clear_places(body, first, body.buffers.sums, transfer::node_sums<Dim>);
     for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
+      if constexpr (is_simplex<Basis>) body.buffers.patch_share[slot] = {};
       if (settings.scheme.affine) {
         sum_points<Basis>(body, transfer::NodePlaces<Basis>(*body.mesh, e), settings, slot, e, m_v2);
       } else {

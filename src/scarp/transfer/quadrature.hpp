@@ -28,6 +28,7 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 
 #include "scarp/transfer/at_nodes.hpp"
 #include "scarp/transfer/shift.hpp"
@@ -144,6 +145,19 @@ struct Means<GridGimp<Dim>> {
     return xsimd::hadd(sum);
   }
 };
+
+/// f(on), with `on` as a constant where the basis has no mean of its own in the report's scheme either: what takes none
+/// is then compiled as if there were none, to the same last bit (a branch would change where products are fused).
+template <class Basis, class F>
+inline void with_means(bool on, F&& f) {
+  if constexpr (has_shift<Basis>) {
+    f(on);
+  } else if (on) {
+    f(std::true_type{});
+  } else {
+    f(std::false_type{});
+  }
+}
 
 /// Does the element keep B̄_i from its points for the strain?
 template <class Basis>

@@ -102,9 +102,9 @@ inline const std::array<Column, sym_size<Dim>>& felt_stress(const Points<Dim>& p
 /// Σ σ_θθ N_i / r Ω_p in a body of revolution. Gravity (eq. 3) is uniform, so F_i^grav = m_i g is formed at the node.
 /// With `apart` the mean stress s_p = tr σ_p / d of each point is left out of σ_p and summed up by itself.
 /// NodePlaces instead of NoPlaces: the points bring v_p + C_p (x_i − x_p) in place of v_p.
-template <class Basis, class Places>
+template <class Basis, class Places, class Apart>
 inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Places& places, const Points<Basis::dim>& points,
-                            const PointRange& range, bool apart, ElementSums<Basis>& sums) {
+                            const PointRange& range, Apart apart, ElementSums<Basis>& sums) {
   constexpr int Dim = Basis::dim, components = sym_size<Dim>;
   constexpr bool affine = !std::is_same_v<Places, NoPlaces>;
   const auto& felt = felt_stress(points);

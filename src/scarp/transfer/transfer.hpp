@@ -136,8 +136,7 @@ struct ElementMotion {
   const double* shift;                 ///< Shift of its quadrature, as stored
   double weight, size;                 ///< w of its quadrature, and its least height
   const double* hoop_shift = nullptr;  ///< that of N_i / r, in a body of revolution
-  bool mean_dilatation = false;        ///< is the volume strain of its points a mean,
-  double mean_dilation = 0;            ///< this one?
+  double mean_dilation = 0;            ///< volume strain of its points, where that is a mean
 };
 
 /// How points are moved and strained.
@@ -223,10 +222,11 @@ inline double mean_dilation(const typename Basis::Cell& cell, const NodeRows<Bas
 /// spin increments (eqs 10, 11) to `strains` from place `at` on, volume by det(I + L dt) (eq. 14 in its finite form;
 /// the density of eq. 15 is m_p / Ω_p), and position (eqs 17–19; the displacement is x_p less x_p at the start). Then
 /// moved(lanes, x, motion there before) for each batch.
-template <bool pic, class Basis, class F>
+template <bool pic, class Basis, class Averaged, class F>
 inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotion<Basis>& element,
                             const MotionRules& rules, Points<Basis::dim>& points, const PointRange& range,
-                            Strains<Basis::dim>& strains, int at, MotionSums<Basis::dim>& sums, F&& moved) {
+                            Strains<Basis::dim>& strains, int at, Averaged averaged, MotionSums<Basis::dim>& sums,
+                            F&& moved) {
   constexpr int Dim = Basis::dim;
   using T = PointBatch<Dim>;
   const Field<Basis, 2 * Dim> motion(cell, element.motion);
@@ -264,7 +264,7 @@ inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotio
     sums.mass += m;
     sums.kinetic_energy = fma(m, v2, sums.kinetic_energy);
     sums.fastest2 = max(sums.fastest2, select(m > T(0.0), v2, T(0.0)));  // lanes without a point have any v
-    if (element.mean_dilatation) {
+    if (averaged) {
       T more = (T(element.mean_dilation) - g.trace()) * T(1.0 / mean_directions<Basis>);
       if constexpr (keeps_means<Basis>) more *= share_of_mean<Basis>(local);
       repeat<Dim>([&](auto j) { g.L[j][j] += more; });
