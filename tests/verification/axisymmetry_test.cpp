@@ -56,7 +56,7 @@ TEST(BodyOfRevolution, RadialExpansionStrainsTheCircumferenceAsMuch) {
     transfer::nodes_to_points<false, Basis>(
         Basis::Cell(*body.mesh, e), element, {}, block.points,
         {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, strains, block.begin[slot],
-        sums, [](const auto&...) {});
+        std::false_type{}, sums, [](const auto&...) {});
   }
   for (int p = 0; p < block.size(); ++p) {
     EXPECT_NEAR(strains.deps[0][p], c, 1e-14);

@@ -156,7 +156,7 @@ TEST(RigidRotation, TurnsStressBetaAndCentreWithTheBody) {
       transfer::nodes_to_points<false, GridLinear<2>>(
           GridLinear<2>::Cell(*body.mesh, e), element, {}, block.points,
           {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, strains,
-          block.begin[slot], sums, [](const auto&...) {});
+          block.begin[slot], std::false_type{}, sums, [](const auto&...) {});
     }
     exec::StressBooks books;
     exec::update_stresses(block, {block.order.data(), block.size()}, strains, 0, 1.0, {}, books);

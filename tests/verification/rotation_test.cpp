@@ -126,7 +126,7 @@ void move_with_nodes(Body<Dim>& body, const Matrix& m) {
     transfer::nodes_to_points<false, Basis>(
         typename Basis::Cell(*body.mesh, e), element, {}, block.points,
         {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, strains, block.begin[slot],
-        sums, [](const auto&...) {});
+        std::false_type{}, sums, [](const auto&...) {});
   });
   exec::StressBooks books;
   exec::update_stresses(block, {block.order.data(), block.size()}, strains, 0, 1.0, {}, books);
