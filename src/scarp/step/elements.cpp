@@ -320,6 +320,7 @@ void map_points_to_elements(Body<Dim>& body, const StepSettings& settings, StepB
     });
     part.kinetic_energy_before = 0.5 * xsimd::hadd(m_v2);
   });
+  if (uses_patches(body, settings)) add_mean_stresses(body, books);
 }
 
 template <int n, int Dim>

@@ -20,7 +20,8 @@ std::array<double, n> gathered(const Body<Dim>& body, int k, const Column& numbe
 }
 
 /// Step 1: every element adds up mass, momentum and internal force for its own local nodes from its own points, which
-/// first get the columns that the scheme needs.
+/// first get the columns that the scheme needs; then simplices add the mean stress of their patches. All forces of the
+/// soil are there then, for whoever asks for them between steps, too.
 template <int Dim>
 void map_points_to_elements(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books);
 

@@ -115,10 +115,8 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
     f();
   };
   const Scheme& scheme = settings.scheme;
-  const bool patches = step::uses_patches(body, settings);
   prepare_threads(body);
   timed(Phase::points_to_nodes, [&] { step::map_points_to_elements(body, settings, books); });  // 1, eqs 1–4
-  if (patches) timed(Phase::points_to_nodes, [&] { step::add_mean_stresses(body, books); });
   timed(Phase::nodes, [&] { step::accelerate_nodes(body, dt, settings, books); });  // 2 and 3, eq. 5
   if (scheme.two_terms) {
     timed(Phase::velocities, [&] { step::sum_with_mass_matrix<2 * Dim>(body, 0, books); });
@@ -132,7 +130,9 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
     timed(Phase::velocities, [&] { step::sum_with_mass_matrix<2 * Dim>(body, Dim, books); });
     timed(Phase::nodes, [&] { step::filter_displacements(body, settings, books); });  // 5: du = P v dt
   }
-  if (patches) timed(Phase::velocities, [&] { step::find_dilations(body, settings, books); });
+  if (step::uses_patches(body, settings)) {
+    timed(Phase::velocities, [&] { step::find_dilations(body, settings, books); });
+  }
   step::strain_stress_and_motion(body, dt, settings, books);          // 4, 6 to 11, eqs 6, 9–19 and section 3
   timed(Phase::order, [&] { order_points(body, settings, books); });  // 11
   if (step::softens_over_length(body)) timed(Phase::averages, [&] { step::average_softening(body, dt); });
