@@ -92,7 +92,7 @@ struct Updated {
 /// Turns the state (compression positive) with the spin; then the law takes the strain.
 template <int N, class Model, class State>
 Updated<N> update_stress(const Model& model, State& s, const Kinematics& k, double dt,
-                             const IntegrationSettings& settings) {
+                         const IntegrationSettings& settings) {
   Sym<double, N> deps = Sym<double, N>::zero();
   Spin<double, N> spin;
   for (int j = 0; j < 3; ++j) deps[j] = -k.strain[j][j];

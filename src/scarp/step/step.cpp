@@ -117,7 +117,7 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
   const Scheme& scheme = settings.scheme;
   prepare_threads(body);
   timed(Phase::points_to_nodes, [&] { step::map_points_to_elements(body, settings, books); });  // 1, eqs 1–4
-  timed(Phase::nodes, [&] { step::accelerate_nodes(body, dt, settings, books); });  // 2 and 3, eq. 5
+  timed(Phase::nodes, [&] { step::accelerate_nodes(body, dt, settings, books); });              // 2 and 3, eq. 5
   if (scheme.two_terms) {
     timed(Phase::velocities, [&] { step::sum_with_mass_matrix<2 * Dim>(body, 0, books); });
     timed(Phase::nodes, [&] { step::filter_changes(body, dt, settings, books); });           // 4: c = P c
