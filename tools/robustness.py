@@ -107,6 +107,40 @@ def of_places(h, held):
             *(cut(f"held sides, h = {h}", shape, h, case=held, shape=shape) for shape in ("linear", "gimp", "b-spline"))]
 
 
+LENGTH = 1.6  # [m]
+
+
+def with_length(out):
+    """The slope of a weaker clay (p_c = 220 kPa) on 48 m of ground that softens over a length."""
+    case = out / "length.toml"
+    text = (ROOT / CUT).read_text(encoding="utf-8")
+    for line, side in (("[[0.0, 0.0], [45.0, 0.0]]", "bottom"), ("[[0.0, 0.0], [0.0, 16.4]]", "left"),
+                       ("[[45.0, 0.0], [45.0, 16.4]]", "right")):
+        text = text.replace(f"line = {line}", f'nodes = "{side}"')
+    text = text.replace("p_c = 250.0", "p_c = 220.0").replace("density = 1.8", f"density = 1.8\nlength = {LENGTH}")
+    if not case.exists() or case.read_text(encoding="utf-8") != text:
+        case.write_text(text, encoding="utf-8")
+    return str(case)
+
+
+def of_length(out):
+    """Nine places of the grid for each size of elements."""
+    runs = []
+    for parts, cells in ((2, [60, 21]), (3, [90, 32]), (4, [120, 42])):
+        h = LENGTH / parts
+        for i, j in ((i, j) for i in range(3) for j in range(3)):
+            x, y = i * h / 3, j * h / 3
+            changes = {"mesh.grid": {"size": [48.0, cells[1] * h], "elements": cells}, "region.slope.spacing": 0.4 * h,
+                       "method": {"safety": 0.8}, "stage.cut.duration": 20.0, "output.every": 4.0, "output.history": 0.05,
+                       "region.slope.polygon": [[0.0, 0.0], [48.0, 0.0], [48.0, 5 + y], [30 + x, 5 + y], [15 + x, 15 + y],
+                                                [0.0, 15 + y]],
+                       "stage.cut.remove.polygon": [[22 + x, 5 + y], [49.0, 5 + y], [49.0, cells[1] * h - 0.01],
+                                                    [22 + x, cells[1] * h - 0.01]]}
+            place = {"x": 22 + x, "above": 13.5 + y, "behind": 8.0, "front": 35.0}
+            runs.append(Run(f"length, 1/{parts}", f"place {i} {j}", with_length(out), changes, "cut", place))
+    return runs
+
+
 def plain(name, h, spacing=None, **of_method):
     changes = {"mesh.grid": {"size": [60.0, 16.0], "element": h}, "region.slope.spacing": spacing or h / 2,
                "method": method(**of_method)}
@@ -206,7 +240,7 @@ def studies(out):
             "threads": [cut("threads", "two", threads=2)],
             "fine": of_steps(0.4), "fine places": of_places(0.4, held_sides(out)),
             "triangles": [cut("slope_cut", f"safety {safety}", case=CUT_ON_MESH, safety=safety) for safety in SAFETIES],
-            "plain": of_plain(), "undrained": of_undrained(), "column": of_columns(), "gap": of_gap(out)}
+            "length": of_length(out), "plain": of_plain(), "undrained": of_undrained(), "column": of_columns(), "gap": of_gap(out)}
 
 
 # Running ---------------------------------------------------------------------------------------------------------------
