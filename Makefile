@@ -9,7 +9,7 @@ help:
 	@echo "make demo     cut a slope of structured clay and draw what happens, in $(RESULTS)"
 	@echo "make test     build and run all tests"
 	@echo "make validate  run the verification problems on more meshes and draw them (minutes)"
-	@echo "make robustness  run slopes and columns at many settings: what results depend on (half an hour)"
+	@echo "make robustness  run slopes and columns at many settings: what results depend on (45 minutes)"
 	@echo "make bench    measure whole steps, in $(BUILD)/bench.json; make bench-kernels their parts"
 	@echo "make build    build the program, $(BUILD)/bin/scarp"
 	@echo "make package  one program for every x86-64: build-package/*.deb and *.tar.gz"
