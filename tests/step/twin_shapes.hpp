@@ -61,9 +61,7 @@ class TwinShapes {
     for (int e = 0; e < mesh.element_count(); ++e) {
       bool inside = !in[e].empty();
       for (const int other : mesh.elements_around(e)) inside = inside && !in[other].empty();
-      if (!inside || !(gimp ? is_filled(in[e]) : correct(e, in[e], settings.scheme)) ||
-          !settings.scheme.mean_dilatation)
-        continue;
+      if (!inside || !(gimp ? is_filled(in[e]) : correct(e, in[e])) || !settings.scheme.mean_dilatation) continue;
       if (gimp) find_shares(e, in[e]);
       find_means(in[e]);
       if (is_simplex(e)) simplices.push_back(e);
@@ -224,7 +222,7 @@ class TwinShapes {
   }
 
   /// Corrected quadrature inside the soil, as in docs/theory.md. Numbers of nodes are those of the mesh.
-  bool correct(int e, const std::vector<std::size_t>& in, const Scheme& scheme) {
+  bool correct(int e, const std::vector<std::size_t>& in) {
     double V = 0, filled = 0;
     std::map<int, Vec<3>> shift;  // s_i
     for_quadrature_points(e, [&](const auto& B, const auto& nodes, double dV) {
@@ -234,9 +232,7 @@ class TwinShapes {
       }
     });
     for (const auto k : in) filled += points[k].Omega;
-    const bool simplex = body_.mesh->element_nodes(e).size() == Dim + 1;
-    const double least = simplex ? scheme.least_fill_of_simplex : scheme.least_fill;
-    if (filled <= least * V || filled * least >= V) return false;
+    if (!(filled > 0.5 * V && filled < 2 * V)) return false;
     for (auto& [n, s] : shift) {
       for (double& component : s) component /= V;
     }

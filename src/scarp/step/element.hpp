@@ -4,19 +4,12 @@
 #include <algorithm>
 
 #include "scarp/step/body.hpp"
-#include "scarp/step/scheme.hpp"
 
 namespace scarp::step {
 
 template <int Dim>
 PointRange points_of(const Block<Dim>& block, int slot) {
   return {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]};
-}
-
-/// Do points of so much volume fill an element of this kind?
-template <class Basis>
-bool fills(double volume, const transfer::Means<Basis>& mean, const Scheme& scheme) {
-  return transfer::fills(volume, mean, is_simplex<Basis> ? scheme.least_fill_of_simplex : scheme.least_fill);
 }
 
 /// Zero in the places of the elements from slot `first` on, n numbers each.

@@ -63,13 +63,13 @@ SCARP_FLATTEN bool sum_points(Body<Basis::dim>& body, const Places& places, cons
   for (const auto& block : body.blocks) {
     transfer::points_to_nodes<Basis>(shapes, places, block.points, points_of(block, slot), averaged, sums);
   }
-  if (averaged && !fills<Basis>(xsimd::hadd(sums.Omega), *means, settings.scheme)) [[unlikely]]
+  if (averaged && !transfer::fills(xsimd::hadd(sums.Omega), *means)) [[unlikely]]
     return false;
   m_v2 += sums.m_v2;
   transfer::Quadrature<Basis> quadrature;
   if constexpr (Basis::corrects) {
     const double volume = xsimd::hadd(sums.Omega);
-    if (means && fills<Basis>(volume, *means, settings.scheme)) {
+    if (means && transfer::fills(volume, *means)) {
       quadrature = transfer::full_element<Basis>(cell, *means, volume, sums.shift, transfer::totals<Basis>(sums.hoop));
     }
   }

@@ -26,7 +26,7 @@ double weight(const Body<Basis::dim>& body, const StepSettings& settings, int sl
   if constexpr (Basis::corrects) {
     if (settings.quadrature == Quadrature::corrected && body.buffers.inside[slot]) {
       const transfer::Means<Basis> mean(typename Basis::Cell(*body.mesh, e));
-      if (fills<Basis>(volume, mean, settings.scheme)) return mean.V / volume;
+      if (transfer::fills(volume, mean)) return mean.V / volume;
     }
   }
   return 1;

@@ -54,8 +54,6 @@ struct Scheme {
   bool middle = false;           ///< strain and spin of the middle of the step, of second order
   bool mean_dilatation = false;  ///< volume strain is a mean over full elements, or patches of simplices
   bool shares_gaps = false;      ///< what points of an element have opened they share (exec/gap_sharing.hpp)
-  double least_fill = 0.5;  ///< share of an element that its points have at least (and its inverse at most) where it is
-  double least_fill_of_simplex = 0.5;  ///< full; where B_i is constant a single point is a quadrature
   double lateness = 0;  ///< η: a point may be so far (in parts of the element) beyond its element and stay in it
   bool smooth = false;  ///< local damping follows the velocity through zero instead of its sign
   bool mends_massless = false;  ///< nodes without mass move with the others of an element
@@ -81,7 +79,6 @@ inline Scheme standard_scheme() {
   s.middle = s.mean_dilatation = s.shares_gaps = s.smooth = s.mends_massless = true;
   s.wall = WallRule::by_motion;
   s.lateness = 0.02;
-  s.least_fill_of_simplex = 0.25;
   s.damping = {};
   return s;
 }

@@ -191,11 +191,11 @@ struct Quadrature {
   }
 };
 
-/// Do points of so much volume fill an element? Those of less than a share `least` of it, or more than its inverse, are
-/// no quadrature of it: they keep eq. 4.
+/// Do points of so much volume fill an element? Those of less than half of it, or more than twice, are no quadrature of
+/// it: they keep eq. 4.
 template <class Basis>
-inline bool fills(double volume, const Means<Basis>& mean, double least) {
-  return volume > least * mean.V && volume * least < mean.V;
+inline bool fills(double volume, const Means<Basis>& mean) {
+  return volume > 0.5 * mean.V && volume < 2 * mean.V;
 }
 
 /// The quadrature of an element full of soil, from Σ Ω_p, what its shift follows from and (in a body of revolution)
