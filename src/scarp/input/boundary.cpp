@@ -75,7 +75,8 @@ void read_friction(const Node& friction, BoundaryInput& boundary) {
 std::array<double, 2> read_impedance(const Node& node) {
   const auto Z = vector_in<2>(node, "impedance");
   if (Z[0] > 0 && Z[1] > 0) return Z;
-  throw InputError("impedance is that of compression and of shear waves, both above zero", describe(node),
+  throw InputError("impedance is that of compression and of shear waves, both above zero",
+                   fmt::format("[{:.6g}, {:.6g}]", Z[0], Z[1]),
                    "give density times wave speed of the soil beyond, such as impedance = [600.0, 300.0]",
                    node.position);
 }

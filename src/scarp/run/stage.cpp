@@ -76,8 +76,8 @@ void check_failures(const Context<Dim>& context) {
       fmt::format("the stress update of point {} failed at t = {:.6g} s, step {}: {}", ledger.last.stress.failed_id,
                   ledger.time, ledger.steps, end_text(ledger.last.stress.failed_end)),
       fmt::format("{} failures in this run", ledger.failures),
-      "look at the last frame; take a smaller safety or a larger p_c_floor, or allow some with largest_failures in "
-      "[method]");
+      "look at the last frame; take a smaller safety, with the subloading model a larger p_c_floor, or allow some with "
+      "largest_failures in [method]");
 }
 
 /// Says once that the books of energy do not close, and stops where they are far from it.

@@ -34,16 +34,18 @@ void remove_lost(Block<Dim>& block, StepBooks<Dim>& books) {
 }
 
 template <int Dim>
-[[noreturn]] void refuse_to_lose(const Block<Dim>& block, int i) {
+[[noreturn]] void refuse_to_lose(const Body<Dim>& body, const Block<Dim>& block, int i) {
   const auto& points = block.points;
   Vec<Dim> x, v;
   for (int j = 0; j < Dim; ++j) {
     x[j] = points.x[j][i];
     v[j] = points.v[j][i];
   }
-  throw RunError(fmt::format("point {} of region \"{}\" has left the mesh", points.id[i], block.name),
-                 fmt::format("({:.6g}), with velocity ({:.4g})", fmt::join(x, ", "), fmt::join(v, ", ")),
-                 "extend the mesh, or let such points be removed with leaving = \"remove\" in [method]");
+  throw RunError(
+      fmt::format("point {} of region \"{}\" has left the mesh", points.id[i], block.name),
+      fmt::format("({:.6g}), with velocity ({:.4g})", fmt::join(x, ", "), fmt::join(v, ", ")),
+      fmt::format("extend the mesh{}, or let such points be removed with leaving = \"remove\" in [method]",
+                  body.sides.active() ? ", or where an absorbing side gave way take a smaller thickness for it" : ""));
 }
 
 /// Step 11, end: points in the order of their new elements; their arrays are put in order when it pays.
@@ -57,7 +59,7 @@ void order_points(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>&
       const auto& element = block.points.element;
       const auto lost = std::find(element.begin(), element.end(), -1);
       if (lost == element.end()) continue;
-      if (!settings.remove_leaving) refuse_to_lose(block, static_cast<int>(lost - element.begin()));
+      if (!settings.remove_leaving) refuse_to_lose(body, block, static_cast<int>(lost - element.begin()));
       remove_lost(block, books);
     }
     book_motion(body, books);

@@ -154,7 +154,7 @@ TEST(BadCase, AbsorbingSides) {
       {left, "absorbing = true\n@from = \"shake\"", "no stage has this name", "\"shake\"", "[[stage]]"},
       {left, "absorbing = true\n@from = \"rest\"", "fixed for a stage before", "the first stage", "a stage with rest"},
       {left, "absorbing = true\nfrom = \"cut\"\n@thickness = -1", "0 <= thickness", "-1", "within these bounds"},
-      {left, "absorbing = true\nfrom = \"cut\"\n@impedance = [1.0, 0.0]", "above zero", "", "density times"},
+      {left, "absorbing = true\nfrom = \"cut\"\n@impedance = [1.0, 0.0]", "above zero", "[1, 0]", "density times"},
   });
 }
 
