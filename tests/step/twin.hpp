@@ -33,6 +33,8 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
   using Shapes = TwinShapes<Point, Dim>;
   using Shapes::at_;
   using Shapes::body_;
+  using Shapes::least_mass_;
+  using Shapes::least_per_mass_;
   static constexpr int N = sym_size<Dim>;
   using State = typename Model::template State<double, N>;
 
@@ -93,6 +95,7 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
         if (body_.mesh->axisymmetric) F[n][0] += B[2] * s * at_[k].w * point.Omega;
       }
     }
+    if (scheme.bounds_by_nodes && !body_.mesh->grid) this->bound_by_nodes(m_);
     // Step 3 (eq. 5).
     for (std::size_t n = 0; n < nodes; ++n) {
       if (m_[n] < least_mass_) continue;
@@ -242,6 +245,14 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
     return {L, settings.scheme.middle};
   }
 
+  /// Of the rate at which a wave crosses the point's element: c²/h² over the modulus.
+  double per_mass(std::size_t k) const {
+    const Point& point = points[k];
+    const double h = body_.mesh->size[point.element], before = point.Omega / at_[k].taken;
+    const double own = std::max(1.0, at_[k].w) * before / (point.m * h * h);
+    return at_[k].taken * (least_per_mass_.empty() ? own : std::max(own, least_per_mass_[point.element]));
+  }
+
   /// Pressures even out among the points of an element of which some are open.
   void share_gaps(std::vector<Kinematics>& strains, double dt) {
     if constexpr (HasGap<decltype(points[0].state)>) {
@@ -256,7 +267,7 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
           const Point& point = points[k];
           volume += point.Omega;
           s += point.Omega * own_mean_stress(point);
-          rate2 += point.Omega * std::max(1.0, at_[k].w) * point.Omega / (point.m * h * h);
+          rate2 += point.Omega * per_mass(k);
           if (point.state.gap > 0) {
             open = true;
           } else {
@@ -271,20 +282,21 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
           double dilation = 0;
           for (int j = 0; j < directions; ++j) dilation += strains[k].strain[j][j];
           if (point.Omega - point.Omega * std::exp(-point.state.gap) > most && dilation > 0)
-            take(point, strains[k], -dilation);
+            take(k, strains[k], -dilation);
         }
         if (!open || carrying == 0) continue;
         const double theta = 0.5 * std::min(1.0, dt * std::sqrt(M / carrying * rate2 / volume));
         for (const auto k : members) {
           const double delta = theta * (mean - own_mean_stress(points[k])) / (M / carrying);
-          take(points[k], strains[k], delta);
+          take(k, strains[k], delta);
           shared += std::abs(delta);
         }
       }
     }
   }
-  void take(Point& point, Kinematics& strain, double delta) const {
-    point.Omega *= std::exp(delta);
+  void take(std::size_t k, Kinematics& strain, double delta) {
+    points[k].Omega *= std::exp(delta);
+    at_[k].taken *= std::exp(delta);
     for (int j = 0; j < mean_directions(); ++j) strain.strain[j][j] += delta / mean_directions();
   }
   /// Of σ, tension positive.
@@ -298,9 +310,8 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
     Point& point = points[k];
     const auto [turned, separated] = update_stress<N>(model_, point.state, strain, dt, settings.integration);
     const auto waves = scheme::waves(settings.scheme, is_elastic(body_.blocks[0].model));
-    const double h = body_.mesh->size[point.element], modulus = model_.p_wave_modulus(point.state);
-    const double per_mass = std::max(1.0, at_[k].w) * point.Omega / point.m;
-    const double beta = waves.time > 0 ? waves.time : waves.share * h / std::sqrt(modulus * per_mass);
+    const double modulus = model_.p_wave_modulus(point.state);
+    const double beta = waves.time > 0 ? waves.time : waves.share / std::sqrt(modulus * per_mass(k));
     point.ahead = point.state.sigma;
     for (int c = 0; c < N && beta > 0 && !separated; ++c)
       point.ahead[c] += beta / dt * (point.state.sigma[c] - turned[c]);
@@ -359,7 +370,6 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
   }
 
   const Model& model_;
-  double least_mass_ = 1e300;
   std::vector<double> m_;           ///< of the nodes, in this step
   std::vector<std::uint8_t> held_;  ///< of the nodes, in this step
 };

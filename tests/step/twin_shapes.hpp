@@ -30,6 +30,7 @@ class TwinShapes {
     double w = 1;
     std::map<int, Vec<3>> mean;
     double share = 1;  ///< of the point in the mean
+    double taken = 1;  ///< factor on its volume that it took from others of its element
   };
 
   void find_shapes(const StepSettings& settings) {
@@ -69,8 +70,42 @@ class TwinShapes {
     average_over_patches(simplices, in);
   }
 
+  /// The largest ½ Σ_n N_n(x_p) G_n / m_n over the points of each simplex, with G_n = Σ_e |B̄_n|² Σ_p w Ω_p of each
+  /// element's mean gradient (step/node_rates.hpp).
+  void bound_by_nodes(const std::vector<double>& m) {
+    const auto& mesh = *body_.mesh;
+    std::vector<double> filled(mesh.types.size()), G(m.size());
+    for (std::size_t k = 0; k < points.size(); ++k) filled[points[k].element] += at_[k].w * points[k].Omega;
+    for (int e = 0; e < mesh.element_count(); ++e) {
+      double V = 0;
+      std::map<int, Vec<Dim>> mean;
+      for_quadrature_points(e, [&](const auto& B, const auto& nodes, double dV) {
+        V += dV;
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+          for (int j = 0; j < Dim; ++j) mean[nodes[i]][j] += B[i][j] * dV;
+        }
+      });
+      for (const auto& [n, B] : mean) {
+        for (int j = 0; j < Dim; ++j) G[n] += filled[e] * B[j] / V * B[j] / V;
+      }
+    }
+    least_per_mass_.assign(mesh.types.size(), 0);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (!is_simplex(points[k].element)) continue;
+      double here = 0;
+      for (std::size_t i = 0; i < at_[k].node.size(); ++i) {
+        const int n = at_[k].node[i];
+        if (m[n] >= least_mass_) here += 0.5 * at_[k].N[i] * G[n] / m[n];
+      }
+      double& least = least_per_mass_[points[k].element];
+      least = std::max(least, here);
+    }
+  }
+
   const Body<Dim>& body_;
-  std::vector<AtPoint> at_;  ///< of each point
+  std::vector<AtPoint> at_;             ///< of each point
+  std::vector<double> least_per_mass_;  ///< of each element, of schemes that ask for it
+  double least_mass_ = 1e300;
 
  private:
   /// Nodes of a grid that are not nothing at x, by the definitions of its functions.

@@ -59,6 +59,7 @@ void run_both(Mesh<Dim> mesh, const AnyModel& model, int along, int steps, const
               double speed = 1) {
   auto body = soil<Dim>(std::move(mesh), model, along, speed);
   Twin<Model, Dim> twin(body, std::get<Model>(body.blocks[0].model));
+  body.buffers.bounds.every = 1;  // as the twin has it
   const double dt = 0.3 * critical_time_step(body);
   double worst = 0;
   std::int64_t changed = 0;

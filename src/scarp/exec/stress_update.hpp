@@ -61,10 +61,11 @@ void update_stresses(Block<Dim>& block, PointRange range, const Strains<Dim>& st
 
 /// The least 1 / (c/(k h) + |v|/h) over the points of a block, with c the compression wave speed of their present
 /// stiffness; infinite where no point has stiffness. `weight` is that of the points in the quadrature of the active
-/// element in each slot.
+/// element in each slot, `least_per_mass` a bound of Strains::per_mass from below in it, or empty.
 template <int Dim>
 double critical_time_step(const Block<Dim>& block, const std::vector<double>& element_size,
-                          const ActiveElements& active, const Column& weight, const WaveSettings& waves);
+                          const ActiveElements& active, const Column& weight, const Column& least_per_mass,
+                          const WaveSettings& waves);
 
 /// State of point i of a block of this model, with N components, compression positive.
 template <int Dim, class Model>

@@ -133,7 +133,7 @@ Outcome run_in(const input::CaseOf<Dim>& input, const Options& options) {
 
 template <int Dim>
 std::string check_in(const input::CaseOf<Dim>& input) {
-  const Body<Dim> body = build_body(input);
+  Body<Dim> body = build_body(input);
   warn_of_ignored_flip(input);
   warn_of_sparse_points(input, body);
   std::string text = fmt::format("{}: {}\n", input.path, input.title);

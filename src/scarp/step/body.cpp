@@ -71,7 +71,11 @@ void make_room(Body<Dim>& body) {
   buffers.mean_dilatation.reserve(elements);
   buffers.left.reserve(elements);
   buffers.mean_gradient.reserve(elements * mean_gradient_row(*body.mesh));
-  if (!body.patches.empty()) buffers.patch_share.reserve(elements);
+  if (!body.patches.empty()) {
+    buffers.patch_share.reserve(elements);
+    buffers.bounds.filled.reserve(elements);
+    buffers.bounds.least_per_mass.reserve(elements);
+  }
   buffers.changed.reserve(body.mesh->types.size());
   buffers.is_changed.assign(body.mesh->types.size(), 0);
   buffers.shift.reserve(elements * buffers.shift_row);
@@ -173,7 +177,13 @@ void rebuild(Body<Dim>& body) {
   buffers.mean_dilatation.assign(slots, 0);
   buffers.left.assign(slots, 0);
   buffers.mean_gradient.resize(slots * mean_gradient_row(*body.mesh));
-  if (!body.patches.empty()) buffers.patch_share.assign(slots, {});
+  if (!body.patches.empty()) {
+    buffers.patch_share.assign(slots, {});
+    buffers.bounds.filled.assign(slots, 0.0);
+    buffers.bounds.least_per_mass.assign(slots, 0.0);
+    buffers.bounds.stiffness.resize(body.mesh->nodes.size());
+    buffers.bounds.age = buffers.bounds.every;
+  }
   buffers.shift.resize(slots * buffers.shift_row);
   if (body.mesh->axisymmetric) buffers.hoop_shift.resize(slots * padded_row(body.assembly.row()));
   buffers.mass_matrix.resize(slots * mass_matrix_row(body.assembly.row()));

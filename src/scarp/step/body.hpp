@@ -44,6 +44,18 @@ struct PatchShare {
   double theta = 0;  ///< its own volume strain
 };
 
+/// What nodes have to say of the time step, where there are triangles or tetrahedra (node_rates.hpp). Soil moves by
+/// parts of an element between one time that this is found and the next.
+struct NodeBounds {
+  int every = 8;  ///< steps from one time to the next; at once where elements are new
+  int age = 0;    ///< steps since the last one
+  // Of each slot:
+  Column filled;          ///< w Σ Ω_p
+  Column least_per_mass;  ///< of Strains::per_mass
+  // Of every node of the mesh, valid for active ones:
+  Column stiffness;  ///< ½ G_n / m_n
+};
+
 /// Buffers of a step.
 template <int Dim>
 struct Buffers {
@@ -56,8 +68,9 @@ struct Buffers {
   std::vector<std::uint8_t> mean_dilatation;  ///< is the volume strain of its points a mean?
   Column mean_gradient;                       ///< B̄_i of such a cell of GIMP
   std::vector<PatchShare> patch_share;        ///< of triangles and tetrahedra
-  Column hoop_shift;                          ///< the same of N_i / r, in a body of revolution
-  Column mass_matrix;                         ///< M_ij, where elements keep it
+  NodeBounds bounds;
+  Column hoop_shift;   ///< the same of N_i / r, in a body of revolution
+  Column mass_matrix;  ///< M_ij, where elements keep it
   // Of each place of the assembly:
   Column sums;      ///< transfer::node_sums numbers
   Column momentum;  ///< up to transfer::momentum_size numbers

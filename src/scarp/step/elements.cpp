@@ -75,6 +75,7 @@ SCARP_FLATTEN bool sum_points(Body<Basis::dim>& body, const Places& places, cons
   }
   if (averaged) use_means<Basis>(buffers, slot, sums, *means, quadrature);
   buffers.weight[slot] = quadrature.weight;
+  if (!buffers.bounds.filled.empty()) buffers.bounds.filled[slot] = quadrature.weight * xsimd::hadd(sums.Omega);
   buffers.mean_dilatation[slot] = averaged;
   quadrature.shift.store(buffers.shift.data() + slot * buffers.shift_row);
   if constexpr (is_axisymmetric<Basis>) {
@@ -239,7 +240,9 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
                                          body.buffers.weight[slot],
                                          body.mesh->size[e],
                                          nullptr,
+                                         0,
                                          0};
+  if constexpr (is_simplex<Basis>) element.least_per_mass = body.buffers.bounds.least_per_mass[slot];
   if constexpr (is_axisymmetric<Basis>) {
     element.hoop_shift = body.buffers.hoop_shift.data() + slot * padded_row(body.assembly.row());
   }

@@ -11,8 +11,6 @@
 namespace scarp::step {
 namespace {
 
-constexpr int node_chunk = 256;
-
 /// a b + c, in one rounding where the processor has that: what of the report's scheme would else be rounded as the
 /// compiler sees fit.
 inline double fused(double a, double b, double c) {

@@ -8,6 +8,9 @@
 
 namespace scarp::step {
 
+/// Sweeps over the active nodes go in chunks of so many.
+inline constexpr int node_chunk = 256;
+
 /// Step 2: the sum over the places of active node k, n numbers each.
 template <int n, int Dim>
 std::array<double, n> gathered(const Body<Dim>& body, int k, const Column& numbers) {

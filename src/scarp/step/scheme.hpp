@@ -53,6 +53,7 @@ struct Scheme {
   bool affine = false;                                        ///< points carry C_p
   bool middle = false;           ///< strain and spin of the middle of the step, of second order
   bool mean_dilatation = false;  ///< volume strain is a mean over full elements, or patches of simplices
+  bool bounds_by_nodes = false;  ///< the time step of simplices is that of their nodes, too (step/node_rates.hpp)
   bool shares_gaps = false;      ///< what points of an element have opened they share (exec/gap_sharing.hpp)
   double lateness = 0;  ///< η: a point may be so far (in parts of the element) beyond its element and stay in it
   bool smooth = false;  ///< local damping follows the velocity through zero instead of its sign
@@ -76,7 +77,7 @@ inline Scheme report_scheme(double flip = 1) {
 /// What all but the report's have of time, strain and elements.
 inline Scheme standard_scheme() {
   Scheme s;
-  s.middle = s.mean_dilatation = s.shares_gaps = s.smooth = s.mends_massless = true;
+  s.middle = s.mean_dilatation = s.bounds_by_nodes = s.shares_gaps = s.smooth = s.mends_massless = true;
   s.wall = WallRule::by_motion;
   s.lateness = 0.02;
   s.damping = {};

@@ -9,6 +9,7 @@
 #include "scarp/base/error.hpp"
 #include "scarp/exec/arrange.hpp"
 #include "scarp/exec/parallel.hpp"
+#include "scarp/step/node_rates.hpp"
 #include "scarp/step/patches.hpp"
 #include "scarp/step/phases.hpp"
 #include "scarp/step/reweighted.hpp"
@@ -135,17 +136,40 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
   if (step::uses_patches(body, settings)) {
     timed(Phase::velocities, [&] { step::find_dilations(body, settings, books); });
   }
+  if (step::bounds_by_nodes(body, scheme) && step::is_due(body.buffers.bounds)) {
+    timed(Phase::velocities, [&] { step::bound_by_nodes(body, books); });
+  }
   step::strain_stress_and_motion(body, dt, settings, books);          // 4, 6 to 11, eqs 6, 9–19 and section 3
   timed(Phase::order, [&] { order_points(body, settings, books); });  // 11
   if (step::softens_over_length(body)) timed(Phase::averages, [&] { step::average_softening(body, dt); });
   return books;
 }
 
+namespace {
+
+/// What bounds the time step by nodes, of points as they are.
 template <int Dim>
-double critical_time_step(const Body<Dim>& body, const Scheme& scheme, double local_damping) {
+void find_bound_by_nodes(Body<Dim>& body, const Scheme& scheme) {
+  StepBooks<Dim> unused;
+  StepSettings settings;
+  settings.scheme = scheme;
+  step::map_points_to_elements(body, settings, unused);
+  for (int k = 0; k < body.assembly.size(); ++k) {
+    const double m = step::gathered<transfer::node_sums<Dim>>(body, k, body.buffers.sums)[0];
+    body.buffers.node[body.assembly.node(k)].per_mass = m < body.least_mass ? 0 : 1 / m;
+  }
+  step::bound_by_nodes(body, unused);
+}
+
+}  // namespace
+
+template <int Dim>
+double critical_time_step(Body<Dim>& body, const Scheme& scheme, double local_damping) {
+  if (step::bounds_by_nodes(body, scheme)) find_bound_by_nodes(body, scheme);
   double dt = std::numeric_limits<double>::infinity();
   for (const auto& block : body.blocks) {
     dt = std::min(dt, exec::critical_time_step(block, body.mesh->size, body.active, body.buffers.weight,
+                                               body.buffers.bounds.least_per_mass,
                                                scheme::waves(scheme, is_elastic(block.model), local_damping)));
   }
   return dt;
@@ -153,8 +177,8 @@ double critical_time_step(const Body<Dim>& body, const Scheme& scheme, double lo
 
 template StepBooks<2> advance<2>(Body<2>&, double, const StepSettings&);
 template StepBooks<3> advance<3>(Body<3>&, double, const StepSettings&);
-template double critical_time_step<2>(const Body<2>&, const Scheme&, double);
-template double critical_time_step<3>(const Body<3>&, const Scheme&, double);
+template double critical_time_step<2>(Body<2>&, const Scheme&, double);
+template double critical_time_step<3>(Body<3>&, const Scheme&, double);
 template void book_motion<2>(const Body<2>&, StepBooks<2>&);
 template void book_motion<3>(const Body<3>&, StepBooks<3>&);
 

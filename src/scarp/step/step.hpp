@@ -28,7 +28,7 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
 /// The largest stable time step of a scheme with local damping for the present stiffness of every point: min 1 / (c/(k
 /// h) + |v|/h), with k of exec::WaveSettings. Infinite without stiffness.
 template <int Dim>
-double critical_time_step(const Body<Dim>& body, const Scheme& scheme = {}, double local_damping = 0);
+double critical_time_step(Body<Dim>& body, const Scheme& scheme = {}, double local_damping = 0);
 
 /// Mass, momentum, kinetic energy and largest velocity of the points as they are.
 template <int Dim>

@@ -17,7 +17,7 @@ struct Strains {
   std::array<Column, spin_size<Dim>> spin;  ///< spin increment (eq. 11): W_xy (, W_yz, W_zx)
   Column volume;                            ///< w Ω_p in the middle of the step: what the work of stress is taken over
   Column per_mass;  ///< max(1, w) Ω_p / (m_p h²): where a point stands for more, its stiffness does too; h is the least
-                    ///< height of its element
+                    ///< height of its element. In simplices not less than their nodes ask for (step/node_rates.hpp)
   Column speed2;  ///< |v_p|² / h²
 
   /// Room for so many points, and for a batch that starts at the last of them; twice that where it has to grow.

@@ -137,6 +137,7 @@ struct ElementMotion {
   double weight, size;                 ///< w of its quadrature, and its least height
   const double* hoop_shift = nullptr;  ///< that of N_i / r, in a body of revolution
   double mean_dilation = 0;            ///< volume strain of its points, where that is a mean
+  double least_per_mass = 0;           ///< a bound from below of Strains::per_mass; in simplices
 };
 
 /// How points are moved and strained.
@@ -281,7 +282,9 @@ inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotio
       store_strains(increments_of(g.L, g.hoop), strains, at + first);
     }
     (T(w) * Omega * (T(1.0) - T(0.5) * dilation)).store_unaligned(strains.volume.data() + at + first);
-    (T(stiffer) * Omega / m).store_unaligned(strains.per_mass.data() + at + first);
+    T per_mass = T(stiffer) * Omega / m;
+    if constexpr (is_simplex<Basis>) per_mass = max(per_mass, T(element.least_per_mass));
+    per_mass.store_unaligned(strains.per_mass.data() + at + first);
     (T(per_size2) * v2).store_unaligned(strains.speed2.data() + at + first);
     moved(p, x, here);
   });

@@ -20,9 +20,9 @@ inline void add_element(Mesh<3>& mesh, ElementType type, const std::vector<int>&
 }
 
 /// An n x n x n mesh of the unit cube with nodes moved at random by up to `shake` spacings (not off the sides), graded
-/// towards the left. Tetrahedra come six to a cube, around its diagonal, so that those of neighbours fit. In a mixed
-/// mesh the left half is of hexahedra, and the nodes of the plane between stay in it.
-inline Mesh<3> irregular(int n, double shake, Solid kind) {
+/// towards the left if `graded`. Tetrahedra come six to a cube, around its diagonal, so that those of neighbours fit.
+/// In a mixed mesh the left half is of hexahedra, and the nodes of the plane between stay in it.
+inline Mesh<3> irregular(int n, double shake, Solid kind, bool graded = true) {
   const Mesh<3> regular = make_grid<3>({0, 0, 0}, {1, 1, 1}, {n, n, n});
   std::mt19937 random(7);
   std::uniform_real_distribution<double> move(-shake / n, shake / n);
@@ -32,7 +32,7 @@ inline Mesh<3> irregular(int n, double shake, Solid kind) {
     const bool between = kind == Solid::mixed && x[0] == middle;
     for (int k = 0; k < 3; ++k)
       if (x[k] > 0 && x[k] < 1 && !(between && k == 0)) x[k] += move(random);
-    mesh.nodes.push_back({0.5 * x[0] * (1 + x[0]), x[1], x[2]});
+    mesh.nodes.push_back({graded ? 0.5 * x[0] * (1 + x[0]) : x[0], x[1], x[2]});
   }
   mesh.offsets.push_back(0);
   for (int e = 0; e < regular.element_count(); ++e) {
