@@ -7,8 +7,8 @@
 // either. What they have is the share N_n, and
 //     ω² ≈ 2 max over points of Σ_n N_n(x_p) ω_n²,
 // which is exact for a bar. Among 370 fillings of meshes of either kind, by lattices and at random down to one point
-// per edge, the true one was between 0.3 and 0.95 of it (docs/theory.md, "Time step"). For one modulus M it is a matter
-// of geometry: as 4 c²/h², with c² = M Ω / m, it stands for a point of
+// per edge, the true one was between 0.3 and 0.95 of it (docs/theory.md, "Critical time step"). For one modulus M it is
+// a matter of geometry: as 4 c²/h², with c² = M Ω / m, it stands for a point of
 //     Ω / (m h²) = ½ Σ_n N_n G_n / m_n,   G_n = Σ Ω̂ |B_n|².
 #pragma once
 
