@@ -60,7 +60,7 @@ class Update {
     Spin<Batch, N> spin;
     for (std::size_t c = 0; c < spin.w.size(); ++c) spin.w[c] = increment(strains_.spin[c], at);
     State<Batch> turned = old;
-    rotate(model_, turned, Rotation<Batch, N>(spin));
+    rotate(model_, turned, Rotation<Batch, N>(spin));  // eq. 12 and eq. 13, exact
 
     const auto trial =
         attempt<ModifiedEuler>(model_, turned, Increment<Batch, N>{deps, Batch(dt_)}, settings_.tolerance);

@@ -106,7 +106,7 @@ class Subloading {
   /// Eq. 31: the growth of R per ‖dε^p‖.
   template <class T>
   T R_per_strain(const T& R) const {
-    return T(-c_.c_R) * log(max(T(1e-300), (R - T(c_.R_min)) * T(per_R_span_)));
+    return T(-c_.c_R) * log(max(T(1e-300), (R - T(c_.R_min)) * T(per_R_span_)));  // eq. 31
   }
 
   /// N : x
@@ -223,8 +223,8 @@ Subloading::Homothety<T, N> Subloading::homothety(const State<T, N>& s) const {
   h.S0 = deviator(s.a) - h.p_a * s.beta;
   h.S1 = deviator(d) - h.p_d * s.beta;
   const T pa_bar = h.p_a + T(c_.xi) * s.p_c;
-  // Eq. 20 on eq. 21: A u² + 2 B u + C = 0 for u = 1/R.
-  const T A = T(m) * dot(h.S1, h.S1) + h.p_d * h.p_d;
+  // Eq. 20 on eq. 21 is A u² + 2 B u + C = 0 for u = 1/R.
+  const T A = T(m) * dot(h.S1, h.S1) + h.p_d * h.p_d;  // eq. 20, of eq. 21
   const T B = T(m) * dot(h.S0, h.S1) + h.p_d * (pa_bar - T(0.5) * s.p_c);
   const T C_raw = T(m) * dot(h.S0, h.S0) + pa_bar * (pa_bar - s.p_c);
   const T C = min(C_raw, T(0.0));
@@ -256,15 +256,14 @@ Subloading::Image<T, N> Subloading::image(const State<T, N>& s) const {
   y.R = max(y.h.R, T(c_.R_min));
   const T u = T(1.0) / y.R;
   y.from_a = u * (s.sigma - s.a);
-  y.s_bar = y.h.S0 + u * y.h.S1;
-  const T p_bar = y.h.p_a + u * y.h.p_d + T(c_.xi) * s.p_c;
+  y.s_bar = y.h.S0 + u * y.h.S1;                             // eq. 24
+  const T p_bar = y.h.p_a + u * y.h.p_d + T(c_.xi) * s.p_c;  // eq. 22
 
-  // Eqs 21–24, 30.
   const T along = dot(y.s_bar, s.beta);
   const T cap = T(2.0) * p_bar - s.p_c;
-  y.f_p = cap - T(n_s_) * along;
-  y.g_p = cap - T(g_s_) * along;
-  y.ss = dot(y.s_bar, y.s_bar);
+  y.f_p = cap - T(n_s_) * along;  // of eq. 21
+  y.g_p = cap - T(g_s_) * along;  // of eq. 29, on eq. 30
+  y.ss = dot(y.s_bar, y.s_bar);   // q̄² of eq. 23, but for 3/2
   y.norm_g_dev = T(g_s_) * sqrt(y.ss);
   y.norm_g = sqrt(y.norm_g_dev * y.norm_g_dev + y.g_p * y.g_p * T(1.0 / 3.0));
   return y;
@@ -280,16 +279,17 @@ Subloading::Hardening<T, N> Subloading::hardening(const State<T, N>& s, const Im
   const T eta = eta_beta_cs(T(c_.M_c) * willam_warnke(cos_3_lode_of_unit(direction), c_.k));
   r.beta = (T(pace_beta_) * y.norm_g_dev * y.p) * (T(0.81649658092772603273) * eta * direction - s.beta);  // eq. 32
   r.R_b = T(c_.c_b) * (T(c_.R_bf) - s.R_b) * y.norm_g;                                                     // eq. 36
-  // Eq. 37 over p_c, with one division for R_b/p_c and 1/R_b.
+  // Over p_c, with one division for R_b/p_c and 1/R_b.
   const T inverse = T(1.0) / (s.p_c * s.R_b);
-  const T growth = T(per_plastic_) * (T(1.0) + s.R_b * s.R_b * inverse * T(p_bond_)) * y.g_p + s.p_c * inverse * r.R_b;
+  const T growth = T(per_plastic_) * (T(1.0) + s.R_b * s.R_b * inverse * T(p_bond_)) * y.g_p +  // eq. 35 of eq. 33
+                   s.p_c * inverse * r.R_b;                                                     // eq. 34, eq. 37
   r.p_c_relative = select(s.p_c <= T(floor_), max(T(0.0), growth), growth);
   r.p_c = r.p_c_relative * s.p_c;
   // Eq. 38: σ̄_y − a with c the centre of the yield surface, σ̄_y = σ_y − δ (σ_y − c).
   const T p_centre = T(0.5 - c_.xi) * s.p_c;
   const Sym<T, N> centre = p_centre * s.beta + isotropic<T, N>(p_centre);
   r.pull = (T(c_.c_a) * y.norm_g) * (y.from_a - T(c_.delta) * (s.a + y.from_a - centre));
-  r.a = r.pull + r.p_c_relative * s.a + y.h.p_a * r.beta;
+  r.a = r.pull + r.p_c_relative * s.a + y.h.p_a * r.beta;  // eq. 38
   return r;
 }
 

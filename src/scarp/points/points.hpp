@@ -47,7 +47,7 @@ struct Points {
 
   int size() const { return static_cast<int>(mass.size()); }
   /// Component j of the displacement of point i.
-  double u(int j, int i) const { return x[j][i] - x_start[j][i]; }
+  double u(int j, int i) const { return x[j][i] - x_start[j][i]; }  // eq. 18
 };
 
 /// x_p

@@ -203,7 +203,7 @@ Frame frame_of(const Body<Dim>& body) {
   collect.scalar("eps_v", [](const Points<Dim>& p, int i) { return -std::log(p.volume[i] / p.initial_volume[i]); });
   collect.scalar("eps_q", [](const Points<Dim>& p, int i) { return p.eps_q[i]; });
   collect.scalar("volume", [](const Points<Dim>& p, int i) { return p.volume[i]; });
-  collect.scalar("density", [](const Points<Dim>& p, int i) { return p.mass[i] / p.volume[i]; });
+  collect.scalar("density", [](const Points<Dim>& p, int i) { return p.mass[i] / p.volume[i]; });  // eq. 15
   collect.model_fields();
   collect.kappa_hat();
   collect.template add<std::int32_t>("substeps", [=](int b, int i) { return blocks[b].points.substeps[i]; });

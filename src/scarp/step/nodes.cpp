@@ -144,10 +144,10 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
   node.held = 0;
   for (int j = 0; j < Dim; ++j) {
     node.v[j] = p[j] * per_mass;
-    F[j] = m * body.gravity[j] - F_int[j];
+    F[j] = m * body.gravity[j] - F_int[j];  // eq. 3 at the node, for gravity is uniform
     if (body.sides.holds(n)) F[j] += body.sides.force(n, j, m);
     if (body.release.active()) F[j] += body.release.force(n, j, m);
-    a[j] = F[j] * per_mass;
+    a[j] = F[j] * per_mass;  // eq. 5
   }
   const bool resisted = is_resisted(body, n, settings.damping);
   node.acted_on = resisted || body.release.active() || body.sides.active();
@@ -286,7 +286,7 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
       auto& motion = body.buffers.motion[n];
       Vec<Dim> v, path;
       for (int j = 0; j < Dim; ++j) {
-        v[j] = phi * node.v[j] + M_w[j] * node.per_mass;
+        v[j] = phi * node.v[j] + M_w[j] * node.per_mass;  // eq. 7 and eq. 8
         path[j] = 0.5 * (node.v[j] + v[j]) * dt;
       }
       if (books_pic) taken += energy_of_flip(node, motion, M_w);
@@ -295,7 +295,7 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
       if (here != 0) book_work<Dim>(body, n, settings, here, path, part);
       if (node.acted_on && is_resisted(body, n, settings.damping)) [[unlikely]]
         v = constrained<Dim>(body, n, scheme, v);
-      for (int j = 0; j < Dim; ++j) motion.du(j) = v[j] * dt;
+      for (int j = 0; j < Dim; ++j) motion.du(j) = v[j] * dt;  // eq. 16
       if (!filters) {
         for (int j = 0; j < Dim; ++j) m_du[j] += node.m * motion.du(j);
       } else if (node.held != 0) [[unlikely]] {

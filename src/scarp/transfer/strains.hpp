@@ -56,12 +56,12 @@ struct Increments {
 template <class T, std::size_t Dim>
 inline Increments<T, int{Dim}> increments_of(const std::array<std::array<T, Dim>, Dim>& L, const T& hoop) {
   Increments<T, int{Dim}> of;
-  repeat<Dim>([&](auto j) { of.deps[j] = L[j][j]; });
+  repeat<Dim>([&](auto j) { of.deps[j] = L[j][j]; });  // eq. 10
   if constexpr (Dim == 2) of.deps[2] = hoop;
   repeat<spin_size<Dim>>([&](auto j) {  // xy, yz, zx
     constexpr int k = (j + 1) % Dim;
     of.deps[3 + j] = T(0.5 * sqrt2) * (L[j][k] + L[k][j]);
-    of.spin.w[j] = T(0.5) * (L[j][k] - L[k][j]);
+    of.spin.w[j] = T(0.5) * (L[j][k] - L[k][j]);  // eq. 11
   });
   return of;
 }

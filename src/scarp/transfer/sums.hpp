@@ -153,7 +153,7 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Places& p
         WideNodal<Basis> mN;
         repeat<nodal_batches<Basis>>([&](auto b) {
           mN[b] = m * here.N[b];
-          sums.m[b] += mN[b];
+          sums.m[b] += mN[b];  // eq. 1
           repeat<Dim>([&](auto j) {
             if constexpr (affine) {
               W v_at = v[j];
@@ -163,9 +163,11 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Places& p
               });
               sums.p[j][b] = fma(mN[b], v_at, sums.p[j][b]);
             } else {
-              sums.p[j][b] = fma(mN[b], v[j], sums.p[j][b]);
+              sums.p[j][b] = fma(mN[b], v[j], sums.p[j][b]);  // eq. 2
             }
-            repeat<Dim>([&](auto k) { sums.F[k][b] = fma(here.B[j][b], sigma[mandel(j, k)], sums.F[k][b]); });
+            repeat<Dim>([&](auto k) {
+              sums.F[k][b] = fma(here.B[j][b], sigma[mandel(j, k)], sums.F[k][b]);  // eq. 4
+            });
           });
         });
         sums.shift.add(Omega, here);

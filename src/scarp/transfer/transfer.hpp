@@ -178,7 +178,7 @@ inline Gradients<T, Basis::dim> gradients_at(const ElementMotion<Basis>& element
   Gradients<T, Dim> g;
   if constexpr (is_axisymmetric<Basis>) g.hoop = hoop_strain<Basis>(element, here.value(Dim), r);
   repeat<Dim>([&](auto j) {
-    repeat<Dim>([&](auto k) { g.L[j][k] = shifted.template derivative<j, k>(motion, here, local); });
+    repeat<Dim>([&](auto k) { g.L[j][k] = shifted.template derivative<j, k>(motion, here, local); });  // eq. 9
   });
   return g;
 }
@@ -243,7 +243,7 @@ inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotio
     T v2(0.0);
     auto g = gradients_at<Basis>(element, shifted, motion, here, local, p.load(points.x[0]));
     repeat<Dim>([&](auto j) {
-      const T v_t = p.load(points.v[j]), v = fma(T(rules.flip), v_t, here.value(j));
+      const T v_t = p.load(points.v[j]), v = fma(T(rules.flip), v_t, here.value(j));  // eq. 6
       p.store(v, points.v[j]);
       v2 = fma(v, v, v2);
       sums.momentum[j] = fma(m, v, sums.momentum[j]);
@@ -251,7 +251,7 @@ inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotio
         const T v_flip = v_t + a_dt.at(local).value(j);
         sums.taken = fma(m, v_flip * v_flip - v * v, sums.taken);
       }
-      x[j] = p.load(points.x[j]) + here.value(Dim + j);
+      x[j] = p.load(points.x[j]) + here.value(Dim + j);  // eq. 17 and eq. 19
       p.store(x[j], points.x[j]);
     });
     if constexpr (pic) {
@@ -271,7 +271,7 @@ inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotio
       repeat<Dim>([&](auto j) { g.L[j][j] += more; });
       if constexpr (is_axisymmetric<Basis>) g.hoop += more;
     }
-    const T Omega = p.load(points.volume) * determinant_of_stretch(g.L) * (T(1.0) + g.hoop);
+    const T Omega = p.load(points.volume) * determinant_of_stretch(g.L) * (T(1.0) + g.hoop);  // eq. 14, finite
     p.store(Omega, points.volume);
     const T dilation = g.trace();
     if (rules.middle) {
