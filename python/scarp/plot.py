@@ -255,9 +255,8 @@ def history(plt, run, _):
         for stage in run.summary.get("stages", []):
             axes.axvline(stage["start"], color="0.6", lw=0.8, ls=":")
 
-    lines(panels[0], [("work_gravity", "work of gravity"), ("work_stress", "work of stress"), ("kinetic_energy", "kinetic energy"),
-                      ("dissipation_damping", "damping"), ("dissipation_pic", "PIC share"), ("dissipation_waves", "stress rate"), ("dissipation_friction", "wall friction")],
-          "energy [kJ/m]")
+    terms = [name for name in table if name.split("_")[0] in ("work", "dissipation", "stored")]
+    lines(panels[0], [("kinetic_energy", "kinetic energy")] + [(name, name.replace("_", " ")) for name in terms], "energy [kJ/m]")
     lines(panels[1], [("kinetic_energy", "kinetic energy"), ("energy_error", "energy error")], "energy [kJ/m]")
     lines(panels[2], [("unbalanced_ratio", "unbalanced force ratio")], "-", log=True)
     lines(panels[3], [("max_velocity", "largest velocity")], "m/s", log=True)

@@ -15,41 +15,18 @@
 #include "scarp/io/pvd.hpp"
 #include "scarp/io/vtu.hpp"
 #include "scarp/run/fields.hpp"
+#include "scarp/run/history.hpp"
 
 namespace scarp::run {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Has this case use for a term of the balance of energy?
 template <int Dim>
-bool is_used(const typename Ledger<Dim>::Term& term, const input::CaseOf<Dim>& input) {
-  using Use = typename Ledger<Dim>::Use;
-  const auto any = [](const auto& items, auto&& has) { return std::any_of(items.begin(), items.end(), has); };
-  switch (term.use) {
-    case Use::release:
-      return any(input.stages, [](const auto& stage) { return stage.release > 0; });
-    case Use::absorbing:
-      return any(input.boundaries, [](const auto& boundary) { return boundary.absorbing.has_value(); });
-    default:
-      return true;
-  }
-}
-
-template <int Dim>
-std::vector<std::string> history_columns(const input::CaseOf<Dim>& input) {
-  std::vector<std::string> columns = {"time", "dt", "stage", "points", "mass", "momentum_x", "momentum_y"};
-  if (Dim == 3) columns.emplace_back("momentum_z");
-  columns.emplace_back("kinetic_energy");
-  for (const auto& term : Ledger<Dim>::balance()) {
-    if (is_used<Dim>(term, input)) columns.emplace_back(term.key);
-  }
-  const std::initializer_list<const char*> rest = {
-      "energy_removed", "energy_error", "energy_reweighted", "max_velocity", "unbalanced_ratio",
-      "substeps_mean",  "substeps_max", "failures",          "corrected",    "separated",
-      "on_floor",       "no_stiffness", "removed_points"};
-  columns.insert(columns.end(), rest.begin(), rest.end());
-  return columns;
+std::vector<std::string> keys_of(const std::vector<HistoryColumn<Dim>>& columns) {
+  std::vector<std::string> keys;
+  for (const auto& column : columns) keys.push_back(column.key);
+  return keys;
 }
 
 std::string frame_name(int index) {
@@ -122,10 +99,13 @@ nlohmann::ordered_json stages_json(const std::vector<StageRecord>& stages) {
 
 template <int Dim>
 struct Results<Dim>::Writers {
-  Writers(io::PvdWriter frames_list, io::HistoryWriter table)
-      : collection(std::move(frames_list)), history(std::move(table)) {}
+  Writers(const std::string& folder, std::vector<HistoryColumn<Dim>> of_history)
+      : collection(folder + "/points.pvd"),
+        columns(std::move(of_history)),
+        history(folder + "/history.csv", keys_of(columns)) {}
 
   io::PvdWriter collection;
+  std::vector<HistoryColumn<Dim>> columns;
   io::HistoryWriter history;
   int frames = 0;
   double last_frame = -1, last_row = -1;  ///< times; what falls due at the end of a stage is written once
@@ -142,8 +122,7 @@ Results<Dim>::Results(const input::CaseOf<Dim>& input, const std::string& folder
   io::write_whole(folder_ + "/summary.json", "{\"status\": \"running\"}\n");
   io::write_whole(folder_ + "/case.toml", case_text);
   io::write_mesh_vtu(folder_ + "/mesh.vtu", *body.mesh);
-  writers_ = std::make_unique<Writers>(io::PvdWriter(folder_ + "/points.pvd"),
-                                       io::HistoryWriter(folder_ + "/history.csv", history_columns(input)));
+  writers_ = std::make_unique<Writers>(folder_, history_columns<Dim>(input));
 }
 
 template <int Dim>
@@ -163,27 +142,8 @@ template <int Dim>
 void Results<Dim>::history(int stage, int points, const Ledger<Dim>& l) {
   if (l.time == writers_->last_row) return;
   writers_->last_row = l.time;
-  const auto& stress = l.last.stress;
-  std::vector<double> row = {l.time, l.dt, static_cast<double>(stage), static_cast<double>(points), l.last.mass};
-  row.insert(row.end(), l.last.momentum.begin(), l.last.momentum.end());
-  row.push_back(l.last.kinetic_energy);
-  for (const auto& term : Ledger<Dim>::balance()) {
-    if (is_used<Dim>(term, input_)) row.push_back(l.*term.sum);
-  }
-  const std::initializer_list<double> rest = {l.removed_kinetic_energy,
-                                              l.energy_error(),
-                                              l.energy_reweighted,
-                                              l.last.max_velocity,
-                                              l.unbalanced_ratio(),
-                                              points > 0 ? static_cast<double>(stress.substeps) / points : 0.0,
-                                              static_cast<double>(stress.most_substeps),
-                                              static_cast<double>(l.failures),
-                                              static_cast<double>(l.corrected),
-                                              static_cast<double>(stress.separated),
-                                              static_cast<double>(stress.on_floor),
-                                              static_cast<double>(stress.no_stiffness),
-                                              static_cast<double>(l.removed_points)};
-  row.insert(row.end(), rest.begin(), rest.end());
+  std::vector<double> row;
+  for (const auto& column : writers_->columns) row.push_back(column.value({l, stage, points}));
   writers_->history.row(row);
 }
 

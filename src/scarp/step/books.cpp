@@ -7,13 +7,10 @@ namespace scarp {
 template <int Dim>
 StepBooks<Dim>& StepBooks<Dim>::operator+=(const StepBooks& other) {
   using B = StepBooks;
-  for (double B::*sum :
-       {&B::unbalanced_force, &B::weight, &B::work_gravity, &B::work_stress, &B::work_release, &B::work_boundary,
-        &B::dissipation_absorbing, &B::stored_sides, &B::dissipation_damping, &B::dissipation_friction,
-        &B::dissipation_pic, &B::dissipation_waves, &B::energy_reweighted, &B::kinetic_energy_before,
-        &B::kinetic_energy, &B::mass, &B::removed_energy, &B::removed_mass}) {
+  Energies::operator+=(other);
+  for (double B::*sum : {&B::unbalanced_force, &B::weight, &B::kinetic_energy_before, &B::kinetic_energy, &B::mass,
+                         &B::removed_energy, &B::removed_mass})
     this->*sum += other.*sum;
-  }
   for (std::int64_t B::*sum : {&B::removed, &B::massless_nodes, &B::changed_element, &B::left_mesh})
     this->*sum += other.*sum;
   for (int j = 0; j < Dim; ++j) momentum[j] += other.momentum[j];

@@ -9,6 +9,7 @@
 #include "scarp/base/vec.hpp"
 #include "scarp/exec/stress_update.hpp"
 #include "scarp/mesh/locate.hpp"
+#include "scarp/step/energies.hpp"
 
 namespace scarp {
 
@@ -20,15 +21,9 @@ inline constexpr std::array<const char*, phases> phase_names{
     "stress and state (7)", "order of the points", "averages over lengths"};
 
 template <int Dim>
-struct StepBooks {
+struct StepBooks : Energies {
   double unbalanced_force = 0, weight = 0;  ///< Σ |F_grav − F_int| over free components and Σ |F_grav|, at nodes
-  double work_gravity = 0, work_stress = 0;
-  double work_release = 0;  ///< of the force that holds the initial imbalance back
-  double work_boundary = 0, dissipation_absorbing = 0, stored_sides = 0;  ///< of absorbing sides
-  double dissipation_damping = 0, dissipation_friction = 0, dissipation_pic = 0;
-  double energy_reweighted = 0;      ///< stored energy that points brought in where they changed element; no work
-  double dissipation_waves = 0;      ///< of the damping of the rate of stress
-  double kinetic_energy_before = 0;  ///< of the points at the start
+  double kinetic_energy_before = 0;         ///< of the points at the start
   double kinetic_energy = 0, mass = 0, max_velocity = 0;  ///< of the points at the end
   Vec<Dim> momentum{};
   double removed_energy = 0, removed_mass = 0;  ///< kinetic energy and mass of points that left the mesh
