@@ -28,15 +28,15 @@ struct SideNode {
   Vec<Dim> gamma = ones();
   double mass = 0;  ///< of the node when it was let go
 
-  /// γ² = r^(−3/2), or less for the spring: γ² k is at most that of the soil, or what oscillates with 0.45 C_soil / m.
-  /// Neither depends on dt.
+  /// γ² = r^(−3/2), beyond r = 50 with another (50/r)^(3/2), of r alone. On v acts the dashpot γ² C: weaker than
+  /// that of the soil, by r^(−1/2), and the spring γ² k, that of the soil times r^(1/2): at most 7 of it, and in the
+  /// end none of either.
   void find_gamma() {
     for (int j = 0; j < Dim; ++j) {
       if (!(C[j] > C_soil[j])) continue;
       const double r = C[j] / C_soil[j];
-      double squared = std::pow(r, -1.5);
-      if (k[j] > 0) squared = std::min(squared, std::max(1 / (r * r), 0.2 * C_soil[j] * C_soil[j] / (k[j] * mass)));
-      gamma[j] = std::max(std::sqrt(squared), 1e-100);  // is divided by
+      const double root = std::pow(r, -0.75) * std::min(1.0, std::pow(50 / r, 0.75));
+      gamma[j] = std::max(root, 1e-100);  // is divided by
     }
   }
 
