@@ -255,7 +255,7 @@ def history(plt, run, _):
         for stage in run.summary.get("stages", []):
             axes.axvline(stage["start"], color="0.6", lw=0.8, ls=":")
 
-    terms = [name for name in table if name.split("_")[0] in ("work", "dissipation", "stored")]
+    terms = [name for name in table if name.split("_")[0] in ("work", "dissipation", "stored") and any(table[name])]
     lines(panels[0], [("kinetic_energy", "kinetic energy")] + [(name, name.replace("_", " ")) for name in terms], "energy [kJ/m]")
     lines(panels[1], [("kinetic_energy", "kinetic energy"), ("energy_error", "energy error")], "energy [kJ/m]")
     lines(panels[2], [("unbalanced_ratio", "unbalanced force ratio")], "-", log=True)

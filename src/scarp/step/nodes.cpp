@@ -70,6 +70,13 @@ template <int Dim>
     if (node.held & (1u << j)) resistance.F_damping[j] = 0;
     F[j] = node.held & (1u << j) ? 0 : node.m * a[j] - resistance.F_damping[j];
   }
+  if (body.sides.slows(n)) {  // m a and the friction in it are γ times forces on the node
+    for (int j = 0; j < Dim; ++j) {
+      const double gamma = body.sides.gamma(n, j);
+      resistance.F_friction[j] /= gamma;
+      if (!(node.held & (1u << j))) F[j] = node.m * a[j] / gamma - resistance.F_damping[j];
+    }
+  }
   return of;
 }
 
@@ -84,6 +91,7 @@ template <int Dim>
 [[gnu::noinline]] void book_work_of_others(Body<Dim>& body, int n, const StepSettings& settings, unsigned components,
                                            Vec<Dim> path, StepBooks<Dim>& books) {
   const Node<Dim>& node = body.buffers.node[n];
+  if (body.sides.slows(n)) body.sides.slow_down(n, path);
   if (is_resisted(body, n, settings.damping)) {
     const auto& resistance = body.buffers.resistance[n];
     for (int j = 0; j < Dim; ++j) {
@@ -103,7 +111,7 @@ template <int Dim>
 }
 
 /// Books the work of forces on node n that are no part of the body's own, in some of its components, on the path that
-/// these make.
+/// these make (before γ of sides).
 template <int Dim>
 void book_work(Body<Dim>& body, int n, const StepSettings& settings, unsigned components, const Vec<Dim>& path,
                StepBooks<Dim>& books) {
@@ -167,6 +175,12 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
     take_velocity<Dim>(body, n, v_next, dt, settings, books);
   } else if (scheme.two_terms) {
     for (int j = 0; j < Dim; ++j) motion.du(j) = v_next[j];
+    if (body.sides.slows(n)) [[unlikely]] {
+      for (int j = 0; j < Dim; ++j) {
+        motion.dv(j) *= body.sides.gamma(n, j);
+        motion.du(j) *= body.sides.gamma(n, j);
+      }
+    }
     if (node.held != 0) [[unlikely]] {
       for (int j = 0; j < Dim; ++j) {
         if (!(node.held >> j & 1u)) continue;
@@ -229,6 +243,13 @@ void filter_changes(Body<Dim>& body, double dt, const StepSettings& settings, St
       for (int j = 0; j < Dim; ++j) {
         a_dt[j] = scheme::filtered(motion.dv(j), M_w[j], node.per_mass);
         v_next[j] = scheme::filtered(motion.du(j), M_w[Dim + j], node.per_mass);
+      }
+      if (body.sides.slows(n)) [[unlikely]] {
+        for (int j = 0; j < Dim; ++j) {
+          const double gamma = body.sides.gamma(n, j);
+          a_dt[j] = scheme::filtered_of(gamma, motion.dv(j), M_w[j], node.per_mass);
+          v_next[j] = scheme::filtered_of(gamma, motion.du(j), M_w[Dim + j], node.per_mass);
+        }
       }
       if (node.held != 0) [[unlikely]] {
         for (int j = 0; j < Dim; ++j) {
@@ -296,6 +317,11 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
       if (node.acted_on && is_resisted(body, n, settings.damping)) [[unlikely]]
         v = constrained<Dim>(body, n, scheme, v);
       for (int j = 0; j < Dim; ++j) motion.du(j) = v[j] * dt;  // eq. 16
+      if (body.sides.slows(n)) [[unlikely]] {
+        for (int j = 0; j < Dim; ++j) {
+          if (!filters || !(node.held >> j & 1u)) motion.du(j) *= body.sides.gamma(n, j);
+        }
+      }
       if (!filters) {
         for (int j = 0; j < Dim; ++j) m_du[j] += node.m * motion.du(j);
       } else if (node.held != 0) [[unlikely]] {
@@ -313,18 +339,24 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
 }
 
 /// du = P v dt of a node that is acted on, from what it is without conditions; books the work of what acts on it.
-template <int Dim>
+template <int Dim, class Sums>
 [[gnu::noinline]] Vec<Dim> displacement_of_others(Body<Dim>& body, int n, const StepSettings& settings, Vec<Dim> du,
-                                                  StepBooks<Dim>& books) {
+                                                  const Sums& M_w, StepBooks<Dim>& books) {
   const Vec<Dim>& aside = body.buffers.half_path[n];
   const unsigned held = body.buffers.node[n].held;
+  const bool slowed = body.sides.slows(n);
   Vec<Dim> path;
   for (int j = 0; j < Dim; ++j) {
+    if (slowed) {
+      const double gamma = body.sides.gamma(n, j);
+      du[j] = scheme::filtered_of(gamma, body.buffers.motion[n].du(j), M_w[Dim + j], body.buffers.node[n].per_mass);
+    }
     if (held >> j & 1u) du[j] = aside[j];
     path[j] = aside[j] + 0.5 * du[j];
   }
   if (settings.scheme.two_terms) book_work_of_others<Dim>(body, n, settings, ~held, path, books);
   if (is_resisted(body, n, settings.damping)) du = constrained<Dim>(body, n, settings.scheme, du);
+  if (slowed) body.sides.slow_down(n, du);
   return du;
 }
 
@@ -337,7 +369,7 @@ void filter_displacements(Body<Dim>& body, const StepSettings& settings, StepBoo
       Vec<Dim> du;
       for (int j = 0; j < Dim; ++j) du[j] = scheme::filtered(motion.du(j), M_w[Dim + j], node.per_mass);
       if (node.acted_on) [[unlikely]]
-        du = displacement_of_others<Dim>(body, n, settings, du, part);
+        du = displacement_of_others<Dim>(body, n, settings, du, M_w, part);
       for (int j = 0; j < Dim; ++j) {
         motion.du(j) = du[j];
         m_du[j] += node.m * du[j];

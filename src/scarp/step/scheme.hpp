@@ -111,6 +111,11 @@ inline double filtered(double w, double M_w, double per_mass) {
   return 2 * w - M_w * per_mass;
 }
 
+/// The same at a side that is stiffer than its soil, where (1 + γ A γ) w stands for P w: of γ w and M γ w.
+inline double filtered_of(double gamma, double gamma_w, double M_w, double per_mass) {
+  return gamma_w / gamma + gamma * (gamma_w - M_w * per_mass);
+}
+
 /// φ a dt + (1 − φ) ṽ, with ṽ and a as they are, or with P before both.
 inline double change_of_velocity(double phi, double a, double dt, double v_next) {
   return phi * a * dt + (1 - phi) * v_next;

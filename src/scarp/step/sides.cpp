@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -171,6 +172,20 @@ void check_thickness(const Mesh<Dim>& mesh, const std::vector<Face<Dim>>& faces,
       "enlarge thickness, or give 0 for no spring");
 }
 
+/// A wall would take what the side is to absorb, but only where soil presses against it.
+template <int Dim>
+void refuse_walls(const Body<Dim>& body, const std::vector<Face<Dim>>& faces) {
+  for (const auto& face : faces) {
+    for (const int n : face.nodes) {
+      if (body.conditions.normal[n] != face.axis) continue;
+      throw InputError("an absorbing side is no wall with friction",
+                       fmt::format("a wall of friction = {:g} at the node at ({:g}) of the side",
+                                   body.conditions.friction[n], fmt::join(body.mesh->nodes[n], ", ")),
+                       "leave out the wall or absorbing on that side");
+    }
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -180,6 +195,7 @@ Sides<Dim> soil_beyond(const Body<Dim>& body, const AbsorbingSide& side) {
     throw InputError("absorbing sides are there for linear shape functions only", "GIMP or B-splines",
                      "choose shape = \"linear\" in [method]");
   const auto faces = faces_on(mesh, side.nodes);
+  refuse_walls(body, faces);
   const double thickness = side.thickness.value_or(larger_side(body));
   check_thickness(mesh, faces, thickness);
   const auto content = contents(body);
@@ -192,8 +208,9 @@ Sides<Dim> soil_beyond(const Body<Dim>& body, const AbsorbingSide& side) {
       throw InputError("the law of the soil at an absorbing side does not tell its shear modulus", "no impedance",
                        "give impedance = [Z_p, Z_s] of the soil beyond, density times wave speed");
     const double rho = its.mass / its.Omega;
-    const double Z_p = side.impedance ? (*side.impedance)[0] : std::sqrt(rho * its.M / its.Omega);
-    const double Z_s = side.impedance ? (*side.impedance)[1] : std::sqrt(rho * its.G / its.Omega);
+    const double G = its.known ? its.G : 0.25 * its.M;  // ν = 1/3, to compare with what is given
+    const std::array Z_soil{std::sqrt(rho * its.M / its.Omega), std::sqrt(rho * G / its.Omega)};
+    const auto Z_beyond = side.impedance.value_or(Z_soil);
     const double fill = std::min(1.0, its.Omega / volume_of(mesh, face.element));
     for (std::size_t i = 0; i < face.nodes.size(); ++i) {
       int& place = sides.of_node[face.nodes[i]];
@@ -204,8 +221,10 @@ Sides<Dim> soil_beyond(const Body<Dim>& body, const AbsorbingSide& side) {
       auto& node = sides.node[place];
       const double area = fill * node_area(mesh, face.nodes, i);
       for (int j = 0; j < Dim; ++j) {
-        const double Z = j == face.axis ? Z_p : Z_s;
+        const int wave = j == face.axis ? 0 : 1;
+        const double Z = Z_beyond[wave];
         node.C[j] += Z * area;
+        node.C_soil[j] += Z_soil[wave] * area;
         if (thickness > 0) node.k[j] += Z * Z / rho * area / thickness;
       }
     }
@@ -237,10 +256,12 @@ void open_side(Body<Dim>& body, const StepSettings& settings, const AbsorbingSid
     node.mass = sum[0];
     for (int j = 0; j < Dim; ++j) {
       node.C[j] += its.C[j];
+      node.C_soil[j] += its.C_soil[j];
       node.k[j] += its.k[j];
       const bool let_go = (body.conditions.fixed[n] & ~others.fixed[n] & (1u << j)) != 0;
       if (let_go) node.R[j] = sum[1 + Dim + j] - sum[0] * body.gravity[j];
     }
+    node.find_gamma();
     body.conditions.fixed[n] &= others.fixed[n];
   }
 }

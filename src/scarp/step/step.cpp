@@ -46,7 +46,9 @@ template <int Dim>
       fmt::format("point {} of region \"{}\" has left the mesh", points.id[i], block.name),
       fmt::format("({:.6g}), with velocity ({:.4g})", fmt::join(x, ", "), fmt::join(v, ", ")),
       fmt::format("extend the mesh{}, or let such points be removed with leaving = \"remove\" in [method]",
-                  body.sides.active() ? ", or where an absorbing side gave way take a smaller thickness for it" : ""));
+                  body.sides.active() ? ", or where an absorbing side gave way take a smaller thickness or a larger "
+                                        "impedance for it"
+                                      : ""));
 }
 
 /// Step 11, end: points in the order of their new elements; their arrays are put in order when it pays.
