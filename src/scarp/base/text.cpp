@@ -24,7 +24,7 @@ const char* foreign_encoding(std::string_view text) {
 void drop_byte_order_mark(std::string& text, const std::string& file) {
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   if (const std::string encoding = foreign_encoding(text); !encoding.empty())
-    throw InputError("the text is not in UTF-8", "it looks like " + encoding,
+    throw InputError("the text is not in UTF-8", encoding,
                      "save it as UTF-8: in the editor's \"save as\", or iconv -f " + encoding + " -t UTF-8",
                      {file, 1, 1});
 }
