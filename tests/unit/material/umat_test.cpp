@@ -3,12 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <mutex>
 #include <numbers>
 #include <random>
+#include <thread>
 
 #include "material/samples.hpp"
 #include "scarp/base/error.hpp"
 #include "scarp/material/integrate/embedded.hpp"
+#include "scarp/material/umat_guard.hpp"
 
 namespace scarp::test {
 namespace {
@@ -143,8 +147,7 @@ TEST(Umat, NanIsNotTakenAndSaidOnce) {
 }
 
 /// The error of an increment of strain.
-std::string error_of(const Umat& model) {
-  auto s = start<4>(model, some_stress<4>());
+std::string error_of(const Umat& model, Umat::State<double, 4> s) {
   try {
     attempt<ModifiedEuler>(model, s, Sym<double, 4>{{0, 1e-3, 0, 0}}, 1e-4);
   } catch (const RunError& error) {
@@ -152,11 +155,44 @@ std::string error_of(const Umat& model) {
   }
   return "no error";
 }
+std::string error_of(const Umat& model) {
+  return error_of(model, start<4>(model, some_stress<4>()));
+}
 
 TEST(Umat, XitIsAnErrorThatNamesTheMaterial) {
   const auto text = error_of(umat("elastic_c", {2e4, 0.3, 2, -1}, {}, {{"cmname", "CLAY"}}));
   EXPECT_NE(text.find("the UMAT of the material CLAY"), std::string::npos) << text;
   EXPECT_NE(text.find("elastic_c.so) ends the analysis; found it called XIT"), std::string::npos) << text;
+}
+
+// In a process of its own each: after it the program may not go on for long. Several threads are in calls at once.
+TEST(UmatDeathTest, WhatEndsTheProgramIsAnErrorThatNamesTheMaterial) {
+  testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  for (const auto& [how, found] : std::vector<std::pair<double, std::string>>{{7, "ends the analysis; found it ended"},
+                                                                              {8, "crashes; found segmentation fault"},
+                                                                              {9, "crashes; found it aborted"},
+                                                                              {10, "crashes; found segmentation"}}) {
+    for (const char* calls : {"serial", "parallel"}) {
+      const auto end = [&, how = how] {
+        const auto model = umat("elastic_c", {2e4, 0.3, how, -1}, {}, {{"cmname", "CLAY"}, {"calls", calls}});
+        const auto s = start<4>(model, some_stress<4>());
+        std::string text;
+        std::vector<std::thread> threads;
+        std::mutex one;
+        for (int i = 0; i < 4; ++i) {
+          threads.emplace_back([&] {
+            const auto error = error_of(model, s);
+            const std::scoped_lock lock(one);
+            if (text.empty() || error.find("earlier call") == std::string::npos) text = error;
+          });
+        }
+        for (auto& thread : threads) thread.join();
+        std::fprintf(stderr, "%s\n", text.c_str());
+        umat::end_program(3);
+      };
+      EXPECT_EXIT(end(), testing::ExitedWithCode(3), "the UMAT of the material CLAY.*" + found) << how << calls;
+    }
+  }
 }
 
 TEST(Umat, WritingBeyondTheDeclaredStateIsAnError) {
@@ -177,6 +213,27 @@ TEST(Umat, AConstantTooFewShowsAtTheStart) {
   EXPECT_NE(problem.what.find("does not take the initial state"), std::string::npos) << problem.what;
   EXPECT_NE(problem.value.find("= nan"), std::string::npos) << problem.value;
   EXPECT_NE(problem.remedy.find("NPROPS = 1"), std::string::npos) << problem.remedy;
+}
+
+TEST(Umat, WhatIsNotPassedIsFoundWhereItIsUsed) {
+  for (const auto& [how, used] :
+       std::vector<std::pair<double, std::string>>{{1, "uses DFGRD0 or DFGRD1, which"},
+                                                   {2, "uses COORDS, which"},
+                                                   {3, "uses COORDS and DFGRD0 or DFGRD1, which"}}) {
+    const auto problem = problem_of(umat("elastic_c", {2e4, 0.3, how}));
+    EXPECT_EQ(problem.key, "model");
+    EXPECT_NE(problem.what.find(used), std::string::npos) << problem.what;
+  }
+  EXPECT_EQ(problem_of(umat("elastic_c", {2e4, 0.3, 0})).what, "");
+  // What is used later only is NaN then.
+  testing::internal::CaptureStderr();
+  const auto model = umat("elastic_c", {2e4, 0.3, 4});
+  auto s = start<4>(model, some_stress<4>());
+  const auto report = integrate<ModifiedEuler>(model, s, Sym<double, 4>{{0, 1e-3, 0, 0}}, {1e-4, 1e-3});
+  const auto text = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(report.end, IntegrationEnd::unstable);
+  EXPECT_NE(text.find("STRESS(1) = nan"), std::string::npos) << text;
+  EXPECT_NE(text.find("DFGRD1 are NaN"), std::string::npos) << text;
 }
 
 TEST(Umat, NoStiffnessNeedsAWaveModulus) {
