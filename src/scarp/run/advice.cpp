@@ -28,7 +28,55 @@ double edge(const Mesh<Dim>& mesh, int e) {
   return sum / (Dim == 2 ? 3 : 6);
 }
 
+template <int Dim>
+Vec<Dim> middle_of(const Mesh<Dim>& mesh, int e) {
+  Vec<Dim> x{};
+  if (mesh.grid) {
+    const auto cell = mesh.grid->cell(e);
+    for (int k = 0; k < Dim; ++k) x[k] = mesh.grid->origin[k] + (cell[k] + 0.5) * mesh.grid->spacing[k];
+    return x;
+  }
+  const auto nodes = mesh.element_nodes(e);
+  for (const int n : nodes) {
+    for (int k = 0; k < Dim; ++k) x[k] += mesh.nodes[n][k] / static_cast<double>(nodes.size());
+  }
+  return x;
+}
+
+/// Elements whose middle is in the region: how many, and how many of them hold no point of any region.
+template <int Dim>
+struct Hollow {
+  int elements = 0, empty = 0;
+
+  Hollow(const Region<Dim>& region, const Body<Dim>& body) {
+    std::vector<bool> holds(body.mesh->types.size(), false);
+    for (const auto& block : body.blocks) {
+      for (const int e : block.points.element) holds[e] = true;
+    }
+    for (int e = 0; e < body.mesh->element_count(); ++e) {
+      if (!contains(region, middle_of(*body.mesh, e))) continue;
+      ++elements;
+      empty += holds[e] ? 0 : 1;
+    }
+  }
+};
+
 }  // namespace
+
+template <int Dim>
+std::string points_per_element(const Body<Dim>& body) {
+  std::vector<int> counts(body.mesh->types.size(), 0);
+  for (const auto& block : body.blocks) {
+    for (const int e : block.points.element) ++counts[e];
+  }
+  int least = 0, filled = 0;
+  for (const int count : counts) {
+    if (count == 0) continue;
+    least = filled++ == 0 ? count : std::min(least, count);
+  }
+  return fmt::format("{} in {} elements, {:.3g} each on average, {} at least", body.point_count(), filled,
+                     filled > 0 ? static_cast<double>(body.point_count()) / filled : 0.0, least);
+}
 
 template <int Dim>
 void warn_of_sparse_points(const input::CaseOf<Dim>& input, const Body<Dim>& body) {
@@ -42,10 +90,16 @@ void warn_of_sparse_points(const input::CaseOf<Dim>& input, const Body<Dim>& bod
     std::nth_element(edges.begin(), small, edges.end());
     const auto& region = input.regions[r];
     if (region.spacing <= 0.5 * *small * (1 + 1e-6)) continue;
+    const Hollow<Dim> hollow(region.shape(), body);
+    std::string found = fmt::format("spacing = {:g} in elements of {:.3g}", region.spacing, *small);
+    if (hollow.empty > 0)
+      found +=
+          fmt::format("; {} of the {} elements inside it hold no point, and no stress crosses them: it falls apart",
+                      hollow.empty, hollow.elements);
     logging::warn(InputError(fmt::format("region \"{}\" has fewer than two points along an edge of an element, which "
                                          "is too few for its stress and for its books of energy",
                                          region.name),
-                             fmt::format("spacing = {:g} in elements of {:.3g}", region.spacing, *small),
+                             found,
                              fmt::format("give it spacing = {:.3g} or less, or make the elements larger", 0.5 * *small),
                              region.position)
                       .what());
@@ -69,6 +123,8 @@ void warn_of_ignored_flip(const input::CaseOf<Dim>& input) {
   }
 }
 
+template std::string points_per_element(const Body<2>&);
+template std::string points_per_element(const Body<3>&);
 template void warn_of_ignored_flip<2>(const input::CaseOf<2>&);
 template void warn_of_ignored_flip<3>(const input::CaseOf<3>&);
 template void warn_of_sparse_points<2>(const input::CaseOf<2>&, const Body<2>&);

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "scarp/base/error.hpp"
+#include "scarp/base/overlap.hpp"
 #include "scarp/mesh/gmsh.hpp"
 #include "scarp/mesh/grid.hpp"
 #include "scarp/points/fill.hpp"
@@ -116,18 +117,35 @@ Block<Dim> make_block(const input::RegionInputOf<Dim>& region, const input::Mate
   return block;
 }
 
+/// Regions that reach into each other by less than this share of the finer spacing are taken for drawn by hand.
+constexpr double drawn = 0.01;
+
+template <int Dim>
+[[noreturn]] void refuse_overlap(const input::RegionInputOf<Dim>& a, const input::RegionInputOf<Dim>& b,
+                                 const std::string& where) {
+  throw InputError(
+      fmt::format("the regions \"{}\" and \"{}\" overlap", a.name, b.name), where,
+      Dim == 2 ? "let regions share no more than their edges" : "let regions share no more than their faces",
+      a.position);
+}
+
+/// Points of one region in another, and then what their shapes share: less than the spacing may hold no point.
 template <int Dim>
 void check_overlap(const std::vector<input::RegionInputOf<Dim>>& regions, const std::vector<FillingOf<Dim>>& fillings) {
   for (std::size_t a = 0; a < regions.size(); ++a) {
     for (std::size_t b = 0; b < regions.size(); ++b) {
       if (a == b) continue;
-      if (const auto shared = overlap<Dim>(regions[a].shape(), fillings[b])) {
-        throw InputError(
-            fmt::format("the regions \"{}\" and \"{}\" overlap", regions[b].name, regions[a].name),
-            fmt::format("({:.6g}) in both", fmt::join(*shared, ", ")),
-            Dim == 2 ? "let regions share no more than their edges" : "let regions share no more than their faces",
-            regions[b].position);
-      }
+      if (const auto shared = overlap<Dim>(regions[a].shape(), fillings[b]))
+        refuse_overlap(regions[b], regions[a], fmt::format("({:.6g}) in both", fmt::join(*shared, ", ")));
+    }
+  }
+  for (std::size_t b = 0; b < regions.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a) {
+      const auto shared = shared_by(regions[a].shape(), regions[b].shape());
+      if (!shared || shared->depth <= drawn * std::min(regions[a].spacing, regions[b].spacing)) continue;
+      refuse_overlap(regions[b], regions[a],
+                     fmt::format("({:.6g}) in both, {} of {:.3g} in all", fmt::join(shared->at, ", "),
+                                 Dim == 2 ? "an area" : "a volume", shared->volume));
     }
   }
 }

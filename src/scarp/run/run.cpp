@@ -140,7 +140,7 @@ std::string check_in(const input::CaseOf<Dim>& input) {
   std::string text = fmt::format("{}: {}\n", input.path, input.title);
   text += fmt::format("  mesh: {} elements, {} nodes, {}\n", body.mesh->element_count(), body.mesh->node_count(),
                       body.mesh->grid ? "a structured grid" : "unstructured");
-  text += fmt::format("  points: {} in {} elements\n", body.point_count(), body.active.size());
+  text += fmt::format("  points: {}\n", points_per_element(body));
   for (const auto& block : body.blocks) {
     double mass = 0, volume = 0;
     for (int i = 0; i < block.size(); ++i) {
