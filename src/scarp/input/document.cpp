@@ -159,7 +159,7 @@ Node parse_text(const std::string& text, const std::string& name) {
   }
 }
 
-Node parse_file(const std::string& path) {
+std::string read_text(const std::string& path) {
   std::error_code none;
   if (std::filesystem::is_directory(path, none))
     throw InputError("the case file cannot be read", path, "that is a folder; name the file in it");
@@ -169,7 +169,11 @@ Node parse_file(const std::string& path) {
   }
   std::string text(std::istreambuf_iterator<char>(file), {});
   drop_byte_order_mark(text, path);
-  return parse_text(text, path);
+  return text;
+}
+
+Node parse_file(const std::string& path) {
+  return parse_text(read_text(path), path);
 }
 
 }  // namespace scarp::input
