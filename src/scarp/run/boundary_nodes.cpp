@@ -143,7 +143,8 @@ std::vector<std::string> describe_boundaries(const Mesh<Dim>& mesh,
     std::string does = fmt::format("fixes {}", fmt::join(fixed, ", "));
     if (its.friction) does = fmt::format("a wall across {}, friction {:g}", fixed.front(), *its.friction);
     if (its.absorbing) does += fmt::format(", absorbs from stage \"{}\" on", its.absorbing->from);
-    lines.push_back(fmt::format("boundary {}: {} nodes, {}", where, boundary_nodes(mesh, its).size(), does));
+    const auto count = boundary_nodes(mesh, its).size();
+    lines.push_back(fmt::format("boundary {}: {} node{}, {}", where, count, count == 1 ? "" : "s", does));
   }
   return lines;
 }

@@ -5,6 +5,8 @@
 
 #include "scarp/base/error.hpp"
 #include "scarp/base/log.hpp"
+#include "scarp/mesh/build.hpp"
+#include "scarp/mesh/locate.hpp"
 #include "scarp/run/build.hpp"
 #include "unit/input/minimal.hpp"
 
@@ -37,6 +39,39 @@ TEST(Advice, CountsElementsWithoutPoints) {
   const auto whole = spaced("spacing = 1.0");
   EXPECT_NE(whole.find("of the 8 elements inside it hold no point"), std::string::npos) << whole;
   EXPECT_NE(whole.find("spacing = 0.25 or less"), std::string::npos) << whole;
+}
+
+// A mesh of squares of 0.5 m, of which one is cut into 100: few points are in small elements, and many of these empty.
+TEST(Advice, SeesElementsThatAreSmallInOnePlaceOnly) {
+  auto input = read(replaced(minimal, "spacing = 0.5", "spacing = 0.25"));
+  Body<2> body = build_body(input);
+  Mesh<2> mesh;
+  mesh.offsets = {0};
+  const auto square = [&](double x, double y, double h) {
+    const int first = mesh.node_count();
+    for (const auto& [i, j] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) mesh.nodes.push_back({x + i * h, y + j * h});
+    for (int i = 0; i < 4; ++i) mesh.connectivity.push_back(first + i);
+    mesh.types.push_back(ElementType::Q4);
+    mesh.offsets.push_back(static_cast<int>(mesh.connectivity.size()));
+  };
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      if (i != 1 || j != 1) square(0.5 * i, 0.5 * j, 0.5);
+  for (int i = 0; i < 100; ++i) square(0.5 + 0.05 * (i % 10), 0.5 + 0.05 * (i / 10), 0.05);
+  complete(mesh);
+  Body<2> graded(std::make_unique<const Mesh<2>>(mesh), input.gravity);
+  graded.blocks = body.blocks;
+  const Locator<2> locator(mesh);
+  for (auto& block : graded.blocks) {
+    for (int i = 0; i < block.size(); ++i)
+      block.points.element[i] = locator.find_anywhere({block.points.x[0][i], block.points.x[1][i]}).element;
+  }
+  logging::forget_warnings();
+  warn_of_sparse_points(input, graded);
+  const auto warnings = logging::warnings();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("96 of the 107 elements inside it hold no point"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("spacing = 0.025 or less"), std::string::npos) << warnings[0];
 }
 
 TEST(Advice, CountsPointsOfElements) {
