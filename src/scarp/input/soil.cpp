@@ -103,7 +103,8 @@ void refuse_misplaced(const ModelDescription& model, const std::string& key, con
   const auto other = elsewhere(key);
   if (other.empty()) return;
   throw InputError(fmt::format("the model {} has no constant {}", model.name, key), describe(node),
-                   fmt::format("{} is a key of {}", key, other), node.position);
+                   fmt::format("{} is a key of {}; `scarp models {}` lists its constants", key, other, model.name),
+                   node.position);
 }
 
 }  // namespace

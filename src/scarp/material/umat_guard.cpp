@@ -32,6 +32,13 @@ thread_local bool has_stack = false;
 
 std::atomic<bool> ended{false};
 
+// Sanitizers have handlers and stacks for signals of their own, and more to say about a crash.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool crashes_watched = false;
+#else
+constexpr bool crashes_watched = true;
+#endif
+
 constexpr int by_exit = -1;        ///< the value of a jump back from exit(); that from a signal is its number
 constexpr unsigned patience = 60;  ///< seconds from the end of a routine to that of the program
 
@@ -73,7 +80,7 @@ void on_crash(int signal) {
 
 /// A routine may crash because the stack is full: the handler has one of its own, which stays as long as the thread.
 void give_stack() {
-  if (has_stack) return;
+  if (has_stack || !crashes_watched) return;
   has_stack = true;
   constexpr std::size_t size = 1 << 16;
   stack_t stack{};
@@ -115,6 +122,7 @@ void watch_for_ends() {
   static std::once_flag once;
   std::call_once(once, [] {
     at_quick_exit(on_exit_of_program);
+    if (!crashes_watched) return;
     for (const auto& [signal, name] : crashes) {
       struct sigaction action {};
       action.sa_handler = on_crash;
