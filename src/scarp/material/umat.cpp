@@ -201,10 +201,10 @@ Trial<Umat::State<double, N>, double> Umat::update(const State<double, N>& s, co
                    "list every variable of STATEV in state = [...]");
   }
   if (fault.kind == Fault::Kind::not_finite && parameters_->library->first_complaint()) {
-    logging::warn(
-        fmt::format("{} answers with {}; a shorter increment is tried. Later cases are not shown (COORDS, "
-                    "DFGRD0 and DFGRD1 are NaN: scarp does not pass them)",
-                    title(), fault.text()));
+    logging::warn(fmt::format(
+        "{} answers with {}; a shorter increment is tried. Later cases are not shown (COORDS, "
+        "DFGRD0 and DFGRD1{} are NaN: scarp does not pass them)",
+        title(), fault.text(), std::isnan(parameters_->celent) ? ", and CELENT without the key celent," : ""));
   }
   trial.notes = {false, false, false, fault.kind == Fault::Kind::none};
   return trial;
@@ -224,7 +224,8 @@ std::string Umat::not_passed_but_used(const State<double, N>& start) const {
   const auto plain = answer(nothing);
   if (answer(nothing) != plain) return {};  // not even the same for the same: nothing is learnt from it
   const auto differs = [&](const NotPassed& blank) { return answer(blank) != plain; };
-  const bool coords = differs({nan, 1}) || differs(above) || differs(below), stretch = differs({0, nan}) || differs(strained);
+  const bool coords = differs({nan, 1}) || differs(above) || differs(below),
+             stretch = differs({0, nan}) || differs(strained);
   return coords && stretch ? "COORDS and DFGRD0 or DFGRD1" : coords ? "COORDS" : stretch ? "DFGRD0 or DFGRD1" : "";
 }
 
@@ -246,6 +247,18 @@ void Umat::check_start(const State<double, N>& start, std::vector<Problem>& prob
   } catch (const RunError& error) {
     problems.push_back({"model", error.problem(), error.value(), error.remedy()});
     return;
+  }
+  if (fault.kind == Fault::Kind::not_finite && std::isnan(parameters_->celent)) {
+    auto with_length = *parameters_;
+    with_length.celent = 1;
+    Umat other(*this);
+    other.parameters_ = std::make_shared<const Parameters>(std::move(with_length));
+    State<double, N> unused = start;
+    if (other.call(start, Increment<double, N>{Sym<double, N>::zero(), 0.0}, unused, {}).kind == Fault::Kind::none) {
+      problems.push_back({"celent", title() + " uses CELENT, the length of an element, which scarp does not pass",
+                          fault.text(), "add celent = ..., the length that its softening is meant for"});
+      return;
+    }
   }
   if (fault.kind == Fault::Kind::overrun) {
     problems.push_back({"state", title() + " writes beyond its state",

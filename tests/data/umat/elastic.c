@@ -5,7 +5,7 @@
    6 STATEV(1..3) are DSTRAN(5), DSTRAN(6), STRESS(5) and STATEV(4), STATEV(5) are STATEV(10), STATEV(16);
    7 exit(0), as STOP; 8 a write to address 8; 9 abort(); 10 a recursion that fills the stack.
    With NPROPS = 3 the stress depends on PROPS(3) = 1: DFGRD1(1,1); 2: the sign of COORDS(2) - 5; 3: both; 4: DFGRD1 in
-   increments with DSTRAN(2) != 0 only. */
+   increments with DSTRAN(2) != 0 only; 5: CELENT. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -68,6 +68,7 @@ void umat(double* stress, double* statev, double* ddsdde, double* sse, double* s
   if (*nprops == 3) {
     const int how = (int)props[2];
     if (how == 1 || how == 3 || (how == 4 && dstran[1] != 0)) stress[0] += dfgrd1[0] - 1;
+    if (how == 5) ddsdde[0] *= 1 + *celent;
     if ((how == 2 || how == 3) && coords[1] > 5) ddsdde[0] *= 2;
   }
   if (*nprops > 3 && dstran[1] != 0 && time[1] > props[3])

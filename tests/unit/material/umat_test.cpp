@@ -228,6 +228,12 @@ TEST(Umat, WhatIsNotPassedIsFoundWhereItIsUsed) {
     EXPECT_NE(problem.what.find(used), std::string::npos) << problem.what;
   }
   EXPECT_EQ(problem_of(umat("elastic_c", {2e4, 0.3, 0})).what, "");
+  // CELENT has a key of its own.
+  const auto length = problem_of(umat("elastic_c", {2e4, 0.3, 5}));
+  EXPECT_EQ(length.key, "celent");
+  EXPECT_NE(length.what.find("uses CELENT"), std::string::npos) << length.what;
+  const Values settings{{"library", library("elastic_c")}, {"constants", std::vector<double>{2e4, 0.3, 5}}};
+  EXPECT_EQ(problem_of(std::get<Umat>(made("umat", {{"celent", 0.5}}, settings))).what, "");
   // What is used later only is NaN then.
   testing::internal::CaptureStderr();
   const auto model = umat("elastic_c", {2e4, 0.3, 4});
@@ -236,7 +242,7 @@ TEST(Umat, WhatIsNotPassedIsFoundWhereItIsUsed) {
   const auto text = testing::internal::GetCapturedStderr();
   EXPECT_EQ(report.end, IntegrationEnd::unstable);
   EXPECT_NE(text.find("STRESS(1) = nan"), std::string::npos) << text;
-  EXPECT_NE(text.find("DFGRD1 are NaN"), std::string::npos) << text;
+  EXPECT_NE(text.find("DFGRD1, and CELENT without the key celent, are NaN"), std::string::npos) << text;
 }
 
 TEST(Umat, NoStiffnessNeedsAWaveModulus) {
