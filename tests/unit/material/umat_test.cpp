@@ -3,49 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
-#include <mutex>
 #include <numbers>
 #include <random>
-#include <thread>
 
-#include "material/samples.hpp"
-#include "scarp/base/error.hpp"
-#include "scarp/material/integrate/embedded.hpp"
-#include "scarp/material/umat_guard.hpp"
+#include "umats.hpp"
 
 namespace scarp::test {
 namespace {
-
-std::string library(const std::string& name) {
-  return SCARP_UMATS "/" + name + ".so";
-}
-
-Record variable(const std::string& name, const std::string& kind = "scalar") {
-  return {{{"name", name}, {"kind", kind}}};
-}
-
-Umat umat(const std::string& name, const std::vector<double>& constants, const std::vector<Record>& state = {},
-          const Values& more = {}) {
-  Values settings{{"library", library(name)}, {"constants", constants}, {"state", state}};
-  for (const auto& [key, value] : more) settings[key] = value;
-  return std::get<Umat>(made("umat", {}, settings));
-}
-
-template <int N>
-Umat::State<double, N> start(const Umat& model, const Sym<double, N>& sigma, const Values& keys = {}) {
-  std::vector<Problem> problems;
-  const auto s = model.initial_state<N>(sigma, sigma[1], keys, problems);
-  if (!problems.empty()) throw std::invalid_argument(problems[0].what + "; " + problems[0].value);
-  return s;
-}
-
-template <int N>
-Sym<double, N> some_stress() {
-  Sym<double, N> sigma = Sym<double, N>::zero();
-  for (int i = 0; i < 4; ++i) sigma[i] = std::array<double, 4>{62, 100, 66, 9}[static_cast<std::size_t>(i)];
-  return sigma;
-}
 
 /// The largest difference between the built-in elastic law and an elastic UMAT along 200 random increments, of the
 /// stress.
@@ -146,56 +110,10 @@ TEST(Umat, NanIsNotTakenAndSaidOnce) {
   EXPECT_EQ(text.find("STRESS(2)"), text.rfind("STRESS(2)")) << text;
 }
 
-/// The error of an increment of strain.
-std::string error_of(const Umat& model, Umat::State<double, 4> s) {
-  try {
-    attempt<ModifiedEuler>(model, s, Sym<double, 4>{{0, 1e-3, 0, 0}}, 1e-4);
-  } catch (const RunError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-std::string error_of(const Umat& model) {
-  return error_of(model, start<4>(model, some_stress<4>()));
-}
-
 TEST(Umat, XitIsAnErrorThatNamesTheMaterial) {
   const auto text = error_of(umat("elastic_c", {2e4, 0.3, 2, -1}, {}, {{"cmname", "CLAY"}}));
   EXPECT_NE(text.find("the UMAT of the material CLAY"), std::string::npos) << text;
   EXPECT_NE(text.find("elastic_c.so) ends the analysis; found it called XIT"), std::string::npos) << text;
-}
-
-// In a process of its own each: after it the program may not go on for long. Several threads are in calls at once.
-TEST(UmatDeathTest, WhatEndsTheProgramIsAnErrorThatNamesTheMaterial) {
-  testing::GTEST_FLAG(death_test_style) = "threadsafe";
-  for (const auto& [how, found] : std::vector<std::pair<double, std::string>>{{7, "ends the analysis; found it ended"},
-                                                                              {8, "crashes; found segmentation fault"},
-                                                                              {9, "crashes; found it aborted"},
-                                                                              {10, "crashes; found segmentation"}}) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    if (how != 7) continue;  // crashes are left to the sanitizer
-#endif
-    for (const char* calls : {"serial", "parallel"}) {
-      const auto end = [&, how = how] {
-        const auto model = umat("elastic_c", {2e4, 0.3, how, -1}, {}, {{"cmname", "CLAY"}, {"calls", calls}});
-        const auto s = start<4>(model, some_stress<4>());
-        std::string text;
-        std::vector<std::thread> threads;
-        std::mutex one;
-        for (int i = 0; i < 4; ++i) {
-          threads.emplace_back([&] {
-            const auto error = error_of(model, s);
-            const std::scoped_lock lock(one);
-            if (text.empty() || error.find("earlier call") == std::string::npos) text = error;
-          });
-        }
-        for (auto& thread : threads) thread.join();
-        std::fprintf(stderr, "%s\n", text.c_str());
-        umat::end_program(3);
-      };
-      EXPECT_EXIT(end(), testing::ExitedWithCode(3), "the UMAT of the material CLAY.*" + found) << how << calls;
-    }
-  }
 }
 
 TEST(Umat, WritingBeyondTheDeclaredStateIsAnError) {
@@ -204,45 +122,11 @@ TEST(Umat, WritingBeyondTheDeclaredStateIsAnError) {
   EXPECT_NE(text.find("list every variable of STATEV"), std::string::npos) << text;
 }
 
-/// The first problem with an initial state.
-Problem problem_of(const Umat& model, const Values& keys = {}) {
-  std::vector<Problem> problems;
-  model.initial_state<4>(some_stress<4>(), 100, keys, problems);
-  return problems.empty() ? Problem{} : problems.front();
-}
-
 TEST(Umat, AConstantTooFewShowsAtTheStart) {
   const auto problem = problem_of(umat("elastic_c", {2e4}));
   EXPECT_NE(problem.what.find("does not take the initial state"), std::string::npos) << problem.what;
   EXPECT_NE(problem.value.find("= nan"), std::string::npos) << problem.value;
   EXPECT_NE(problem.remedy.find("NPROPS = 1"), std::string::npos) << problem.remedy;
-}
-
-TEST(Umat, WhatIsNotPassedIsFoundWhereItIsUsed) {
-  for (const auto& [how, used] :
-       std::vector<std::pair<double, std::string>>{{1, "uses DFGRD0 or DFGRD1, which"},
-                                                   {2, "uses COORDS, which"},
-                                                   {3, "uses COORDS and DFGRD0 or DFGRD1, which"}}) {
-    const auto problem = problem_of(umat("elastic_c", {2e4, 0.3, how}));
-    EXPECT_EQ(problem.key, "model");
-    EXPECT_NE(problem.what.find(used), std::string::npos) << problem.what;
-  }
-  EXPECT_EQ(problem_of(umat("elastic_c", {2e4, 0.3, 0})).what, "");
-  // CELENT has a key of its own.
-  const auto length = problem_of(umat("elastic_c", {2e4, 0.3, 5}));
-  EXPECT_EQ(length.key, "celent");
-  EXPECT_NE(length.what.find("uses CELENT"), std::string::npos) << length.what;
-  const Values settings{{"library", library("elastic_c")}, {"constants", std::vector<double>{2e4, 0.3, 5}}};
-  EXPECT_EQ(problem_of(std::get<Umat>(made("umat", {{"celent", 0.5}}, settings))).what, "");
-  // What is used later only is NaN then.
-  testing::internal::CaptureStderr();
-  const auto model = umat("elastic_c", {2e4, 0.3, 4});
-  auto s = start<4>(model, some_stress<4>());
-  const auto report = integrate<ModifiedEuler>(model, s, Sym<double, 4>{{0, 1e-3, 0, 0}}, {1e-4, 1e-3});
-  const auto text = testing::internal::GetCapturedStderr();
-  EXPECT_EQ(report.end, IntegrationEnd::unstable);
-  EXPECT_NE(text.find("STRESS(1) = nan"), std::string::npos) << text;
-  EXPECT_NE(text.find("DFGRD1, and CELENT without the key celent, are NaN"), std::string::npos) << text;
 }
 
 TEST(Umat, NoStiffnessNeedsAWaveModulus) {
