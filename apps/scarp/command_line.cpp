@@ -13,6 +13,7 @@
 #include "scarp/base/error.hpp"
 #include "scarp/base/version.hpp"
 #include "scarp/exec/parallel.hpp"
+#include "scarp/material/umat_guard.hpp"
 #include "scarp/run/run.hpp"
 
 namespace {
@@ -92,8 +93,10 @@ int parse_and_call(int argc, char** argv) {
 
 }  // namespace
 
-int scarp_main(int argc, char** argv) {
-  scarp::exec::wait_politely(argv);
+namespace {
+
+/// The exit status, with the error on standard error.
+int guarded_main(int argc, char** argv) {
   try {
     return parse_and_call(argc, argv);
   } catch (const scarp::InputError& error) {
@@ -103,4 +106,13 @@ int scarp_main(int argc, char** argv) {
     fmt::print(stderr, "scarp: {}\n", error.what());
     return failed;
   }
+}
+
+}  // namespace
+
+int scarp_main(int argc, char** argv) {
+  scarp::exec::wait_politely(argv);
+  const int status = guarded_main(argc, argv);
+  if (scarp::umat::was_ended()) scarp::umat::end_program(status);
+  return status;
 }

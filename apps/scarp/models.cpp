@@ -6,6 +6,7 @@
 
 #include "commands.hpp"
 #include "scarp/base/error.hpp"
+#include "scarp/base/words.hpp"
 #include "scarp/material/models.hpp"
 
 namespace scarp::app {
@@ -104,7 +105,10 @@ void print_models(const std::string& name) {
     }
     names.push_back(model.name);
   }
-  throw InputError("there is no such model", '"' + name + '"', fmt::format("choose one of {}", fmt::join(names, ", ")));
+  const auto like = nearest(name, {names.begin(), names.end()});
+  throw InputError(
+      "there is no such model", '"' + name + '"',
+      fmt::format("{}choose one of {}", like ? "did you mean " + *like + "? " : "", fmt::join(names, ", ")));
 }
 
 }  // namespace scarp::app

@@ -11,7 +11,7 @@ COMPONENTS = ("xx", "yy", "zz", "xy", "yz", "zx")
 
 def read_curve(path):
     """Columns by name; empty where the curve has no rows."""
-    with open(path, newline="", encoding="utf-8") as file:
+    with open(path, newline="", encoding="utf-8-sig") as file:
         rows = list(csv.reader(file))
     table = np.array(rows[1:], dtype=float).reshape(-1, len(rows[0]))
     return {name: table[:, k] for k, name in enumerate(rows[0])}

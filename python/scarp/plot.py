@@ -77,7 +77,7 @@ class Run:
         path = os.path.join(self.folder, "history.csv")
         if not os.path.isfile(path):
             return {}
-        with open(path, newline="", encoding="utf-8") as file:
+        with open(path, newline="", encoding="utf-8-sig") as file:
             rows = list(csv.reader(file))
         table = np.array([row for row in rows[1:] if len(row) == len(rows[0])], dtype=float)
         return {name: table[:, k] for k, name in enumerate(rows[0])} if len(table) else {}

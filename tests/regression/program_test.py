@@ -16,7 +16,7 @@ class Commands(ProgramTest):
         text = self.scarp("check", "column.toml").stdout
         # 1 m x 4 m in elements of 0.5 m; 1 m x 3 m of soil in squares of 0.25 m, in 12 elements; 3 m2 of 2 Mg/m3.
         for part in ("column.toml: a column", "16 elements, 27 nodes", "48 points, area 3 m2, mass 6", 'stage "settle"',
-                     "48 in 12 elements"):
+                     "48 in 12 elements", 'boundary "bottom": 3 nodes, fixes x, y'):
             self.assertIn(part, text)
         self.assertEqual(os.listdir(self.folder), ["column.toml"])
 

@@ -268,6 +268,42 @@ class Interruption(ProgramTest):
         self.interrupt(signal.SIGTERM)
 
 
+class Folders(ProgramTest):
+    """One run at a time in a folder, which keeps the case as it was run."""
+
+    def test_a_second_run_is_refused_while_the_first_lives(self):
+        self.write("long.toml", replaced(COLUMN, "duration = 0.2", "duration = 1e5"))
+        self.write("short.toml", COLUMN)
+        first = subprocess.Popen([cases.PROGRAM, "run", "long.toml", "--out", "r", "--threads", "1", "--quiet"],
+                                 cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        try:
+            limit = time.monotonic() + 60
+            while not os.path.exists(self.path("r", "points_00001.vtu")) and time.monotonic() < limit:
+                time.sleep(0.01)
+            before = read(self.path("r", "case.toml"))
+            self.refused("run", "short.toml", "--quiet", "--out", "r",
+                         parts=["another run is writing into the folder", f"r (process {first.pid})", "--out"])
+            self.assertEqual(read(self.path("r", "case.toml")), before)
+            self.scarp("run", "short.toml", "--quiet", "--out", "other")
+        finally:
+            first.kill()  # without a word to anybody: its lock goes with it
+            first.communicate()
+        self.scarp("run", "short.toml", "--quiet", "--out", "r")
+        self.assertEqual(json.loads(read(self.path("r", "summary.json")))["status"], "done")
+        self.assertNotIn(".lock", os.listdir(self.path("r")))
+
+    def test_the_case_as_it_was_run(self):
+        self.write("column.toml", COLUMN)
+        self.scarp("run", "column.toml", "--quiet", "--out", "a", "--set", "region.column.spacing=0.5", "--set",
+                   "title=other")
+        text = read(self.path("a", "case.toml")).decode()
+        self.assertIn("--set region.column.spacing=0.5", text)
+        self.scarp("run", "a/case.toml", "--quiet", "--out", "b")
+        first, second = (contents(self.path(folder)) for folder in "ab")
+        self.assertEqual(first["history.csv"], second["history.csv"])
+        self.assertEqual(json.loads(second["summary.json"])["title"], "other")
+
+
 class Terminal(ProgramTest):
     """What a user at a terminal sees of a run: one line that renews itself."""
 

@@ -8,13 +8,14 @@ namespace scarp::logging {
 namespace {
 
 spdlog::logger& logger() {
-  static spdlog::logger instance = [] {
-    spdlog::logger made("scarp", std::make_shared<spdlog::sinks::stderr_sink_mt>());
-    made.set_pattern("scarp: %v");
-    made.flush_on(spdlog::level::info);
+  // Never destroyed: the program may go on from within exit() (material/umat_guard.hpp).
+  static spdlog::logger* const instance = [] {
+    auto* made = new spdlog::logger("scarp", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+    made->set_pattern("scarp: %v");
+    made->flush_on(spdlog::level::info);
     return made;
   }();
-  return instance;
+  return *instance;
 }
 
 std::mutex of_the_list;

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include "scarp/base/log.hpp"
@@ -280,14 +281,33 @@ CaseOf<Dim> read_tables(Table& table, const std::string& path) {
 
 }  // namespace
 
+namespace {
+
+/// The case as it is run: the file itself, or what overrides have made of it.
+std::string text_of_run(const Node& document, const std::string& path, const std::string& file,
+                        const std::vector<std::string>& overrides) {
+  if (overrides.empty()) return file;
+  std::string head = fmt::format("# {}, with these values changed:\n", path);
+  for (const auto& text : overrides) head += fmt::format("#   --set {}\n", text);
+  return head + to_toml(document);
+}
+
+}  // namespace
+
 AnyCase read_any_case(const std::string& path, const std::vector<std::string>& overrides) {
   logging::forget_warnings();  // of an earlier case
-  Node document = parse_file(path);
+  const std::string file = read_text(path);
+  Node document = parse_text(file, path);
   for (const auto& text : overrides) apply_override(document, text);
   document.position = {path, 0, 0};
   Table table(document, "the case");
-  if (table.whole_or("dimension", 2, 3, 2) == 2) return read_tables<2>(table, path);
-  return read_tables<3>(table, path);
+  const auto read = [&]<int Dim>(std::integral_constant<int, Dim>) -> AnyCase {
+    auto result = read_tables<Dim>(table, path);
+    result.text = text_of_run(document, path, file, overrides);
+    return result;
+  };
+  if (table.whole_or("dimension", 2, 3, 2) == 2) return read(std::integral_constant<int, 2>{});
+  return read(std::integral_constant<int, 3>{});
 }
 
 Case read_case(const std::string& path, const std::vector<std::string>& overrides) {

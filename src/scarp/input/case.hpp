@@ -155,6 +155,7 @@ struct CaseOf {
   bool axisymmetric = false;  ///< in two dimensions: x is the distance from the vertical axis of a body of revolution
   std::string title;
   std::string path;  ///< of the case file
+  std::string text;  ///< the file as it was read; where values were overridden, TOML with these in their places
   Vec<Dim> gravity = down(9.81);
   MeshInputOf<Dim> mesh;
   std::vector<MaterialInput> materials;

@@ -6,10 +6,13 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <optional>
+#include <sstream>
 #include <string_view>
 
 #include "scarp/base/error.hpp"
+#include "scarp/base/text.hpp"
 
 namespace scarp::input {
 namespace {
@@ -59,8 +62,11 @@ std::vector<std::size_t> places(const std::vector<Cell>& header, const std::vect
 }  // namespace
 
 std::vector<std::vector<double>> read_columns(const std::string& path, const std::vector<std::string>& names) {
-  std::ifstream file(path);
-  if (!file) throw InputError("the file cannot be read", path, "check the name and that you may read it");
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw InputError("the file cannot be read", path, "check the name and that you may read it");
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  drop_byte_order_mark(text, path);
+  std::istringstream file(std::move(text));
   std::vector<std::vector<double>> rows;
   std::vector<std::size_t> columns;
   std::string line;

@@ -6,6 +6,9 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <string_view>
+
+#include "scarp/base/text.hpp"
 
 // toml++ 3.3.0 asserts on some malformed input: make that an exception like its others.
 #define TOML_ASSERT(expression) \
@@ -41,7 +44,7 @@ class TextCheck {
         skip_string(c);
       } else {
         if (static_cast<unsigned char>(c) > 127) {
-          refuse("letters outside ASCII stand in quotes or comments only", "one here",
+          refuse("letters outside ASCII stand in quotes or comments only", letter_here(),
                  "put the key or value in quotes, or use plain letters");
         }
         if (c == '.' && ++dots_ > most_dots) {
@@ -54,6 +57,18 @@ class TextCheck {
   }
 
  private:
+  /// What stands here, as it may be shown; what cannot be seen by its name.
+  std::string letter_here() const {
+    const std::string_view rest = std::string_view(text_).substr(at_);
+    if (rest.starts_with("\xEF\xBB\xBF")) return "a byte order mark, which editors do not show";
+    if (rest.starts_with("\xC2\xA0")) return "a no-break space";
+    const auto first = static_cast<unsigned char>(rest[0]);
+    const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : first >= 0xC2 ? 2 : 1;
+    bool whole = length > 1 && first < 0xF5 && rest.size() >= length;
+    for (std::size_t k = 1; whole && k < length; ++k) whole = (rest[k] & 0xC0) == 0x80;
+    return whole ? std::string(rest.substr(0, length)) : fmt::format("the byte {:02X}", first);
+  }
+
   void step() {
     if (text_[at_] == '\n') {
       ++line_;
@@ -144,7 +159,7 @@ Node parse_text(const std::string& text, const std::string& name) {
   }
 }
 
-Node parse_file(const std::string& path) {
+std::string read_text(const std::string& path) {
   std::error_code none;
   if (std::filesystem::is_directory(path, none))
     throw InputError("the case file cannot be read", path, "that is a folder; name the file in it");
@@ -152,8 +167,13 @@ Node parse_file(const std::string& path) {
   if (!file) {
     throw InputError("the case file cannot be read", path, "check the name and that you may read it");
   }
-  const std::string text(std::istreambuf_iterator<char>(file), {});
-  return parse_text(text, path);
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  drop_byte_order_mark(text, path);
+  return text;
+}
+
+Node parse_file(const std::string& path) {
+  return parse_text(read_text(path), path);
 }
 
 }  // namespace scarp::input

@@ -31,8 +31,14 @@ std::string describe(const Node& node);
 /// Parses a file. Throws InputError for a file that cannot be read, and with line and column for one that is not TOML.
 Node parse_file(const std::string& path);
 
+/// The text of a file, without a byte order mark. Throws InputError for one that cannot be read or is not UTF-8.
+std::string read_text(const std::string& path);
+
 /// Parses text; `name` stands for the file in messages.
 Node parse_text(const std::string& text, const std::string& name);
+
+/// The tree as TOML, to the last digit: keys in alphabetical order, without the comments of the file.
+std::string to_toml(const Node& document);
 
 /// Changes the tree by "key=value" (see read_case). Throws InputError that names the override.
 void apply_override(Node& document, const std::string& text);

@@ -7,6 +7,8 @@
 #include <filesystem>
 
 #include "scarp/base/log.hpp"
+#include "scarp/base/words.hpp"
+#include "scarp/input/elsewhere.hpp"
 #include "scarp/input/readers.hpp"
 #include "scarp/material/nonlocal.hpp"
 
@@ -78,9 +80,10 @@ Values read_initial(Table& table, const AnyModel& model, std::map<std::string, P
     if (!known.contains(key)) {
       const auto like = nearest(key, known);
       throw InputError(fmt::format("the model {} has no initial value {}", description.name, key), describe(*item),
-                       known.empty() ? "leave initial out: this model has no state of its own"
-                       : like        ? fmt::format("did you mean {}?", *like)
-                                     : fmt::format("its initial values are {}", fmt::join(known, ", ")),
+                       known.empty()             ? "leave initial out: this model has no state of its own"
+                       : !elsewhere(key).empty() ? fmt::format("{} is a key of {}", key, elsewhere(key))
+                       : like                    ? fmt::format("did you mean {}?", *like)
+                                                 : fmt::format("its initial values are {}", fmt::join(known, ", ")),
                        item->position);
     }
     places[key] = item->position;
@@ -88,6 +91,23 @@ Values read_initial(Table& table, const AnyModel& model, std::map<std::string, P
   }
   return values;
 }
+
+namespace {
+
+/// A key in a material that another table, or another model, has.
+void refuse_misplaced(const ModelDescription& model, const std::string& key, const Node& node) {
+  const auto is_key = [&](const auto& info) { return info.key == key; };
+  if (model.name.empty() || std::any_of(model.parameters.begin(), model.parameters.end(), is_key) ||
+      std::any_of(model.settings.begin(), model.settings.end(), is_key))
+    return;
+  const auto other = elsewhere(key);
+  if (other.empty()) return;
+  throw InputError(fmt::format("the model {} has no constant {}", model.name, key), describe(node),
+                   fmt::format("{} is a key of {}; `scarp models {}` lists its constants", key, other, model.name),
+                   node.position);
+}
+
+}  // namespace
 
 AnyModel read_law(Table& table, const std::string& file) {
   const Node& model = table.need("model", "add model = \"subloading\", for instance; `scarp models` lists them");
@@ -97,6 +117,7 @@ AnyModel read_law(Table& table, const std::string& file) {
   Values settings;
   std::map<std::string, Position> places{{"model", model.position}};
   for (const auto& [key, item] : table.rest()) {
+    refuse_misplaced(description, key, *item);
     places[key] = item->position;
     const auto setting = std::find_if(description.settings.begin(), description.settings.end(),
                                       [&key = key](const auto& info) { return info.key == key; });

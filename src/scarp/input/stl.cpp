@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "scarp/base/error.hpp"
+#include "scarp/base/text.hpp"
 
 namespace scarp::input {
 namespace {
@@ -160,9 +161,13 @@ Triangles read_binary(const std::string& name, std::string_view bytes) {
   return found;
 }
 
-/// Binary files may begin with "solid", too, against the custom: their length gives them away.
+/// Binary files may begin with "solid" or with what looks like a mark of text: their length gives them away.
+bool has_binary_length(std::string_view bytes) {
+  return bytes.size() >= header && bytes.size() == header + record * std::size_t{word_at(bytes, 80)};
+}
+
 bool is_ascii(std::string_view bytes) {
-  if (bytes.size() >= header && bytes.size() == header + record * std::size_t{word_at(bytes, 80)}) return false;
+  if (has_binary_length(bytes)) return false;
   std::size_t first = 0;
   while (first < bytes.size() && is_blank(bytes[first])) ++first;
   return Words::is(bytes.substr(first, 5), "solid") || bytes.size() < header;
@@ -170,7 +175,8 @@ bool is_ascii(std::string_view bytes) {
 
 }  // namespace
 
-Surface parse_stl(const std::string& name, const std::string& bytes) {
+Surface parse_stl(const std::string& name, std::string bytes) {
+  if (!has_binary_length(bytes)) drop_byte_order_mark(bytes, name);
   const bool ascii = is_ascii(bytes);
   Triangles found = ascii ? read_ascii(name, bytes) : read_binary(name, bytes);
   if (const auto fault = surface_fault(found.triangle)) {
@@ -186,7 +192,7 @@ Surface read_stl(const std::string& path) {
   std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (!file.is_open() || file.bad())
     throw InputError("the STL file cannot be read", path, "give the name of a file that may be read", {path, 0, 0});
-  return parse_stl(path, bytes);
+  return parse_stl(path, std::move(bytes));
 }
 
 }  // namespace scarp::input

@@ -13,6 +13,6 @@ namespace scarp::input {
 Surface read_stl(const std::string& path);
 
 /// The same from the bytes of such a file; `name` stands for it in errors.
-Surface parse_stl(const std::string& name, const std::string& bytes);
+Surface parse_stl(const std::string& name, std::string bytes);
 
 }  // namespace scarp::input

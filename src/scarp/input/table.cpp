@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "scarp/base/words.hpp"
+#include "scarp/input/elsewhere.hpp"
 
 namespace scarp::input {
 namespace {
@@ -18,35 +20,7 @@ std::string bounds_text(const std::string& name, const Range& range) {
   return text;
 }
 
-/// Changes of one letter that turn one word into the other.
-std::size_t distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t corner = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, corner + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      corner = above;
-    }
-  }
-  return row[b.size()];
-}
-
 }  // namespace
-
-std::optional<std::string> nearest(const std::string& word, const std::set<std::string>& known) {
-  std::optional<std::string> best;
-  std::size_t least = std::max<std::size_t>(1, word.size() / 2) + 1;
-  for (const auto& candidate : known) {
-    if (const auto d = distance(word, candidate); d < least) {
-      least = d;
-      best = candidate;
-    }
-  }
-  return best;
-}
 
 double number_in(const Node& node, const std::string& name, const Range& range) {
   const auto* value = std::get_if<double>(&node.value);
@@ -157,10 +131,12 @@ void Table::finish() const {
   for (const auto& [key, node] : keys_) {
     if (asked_.contains(key)) continue;
     const auto like = nearest(key, asked_);
-    throw InputError(
-        fmt::format("{} has no key {}", title_, key), describe(node),
-        like ? fmt::format("did you mean {}?", *like) : fmt::format("its keys are {}", fmt::join(asked_, ", ")),
-        node.position);
+    const auto other = elsewhere(key);
+    throw InputError(fmt::format("{} has no key {}", title_, key), describe(node),
+                     !other.empty() ? fmt::format("{} is a key of {}", key, other)
+                     : like         ? fmt::format("did you mean {}?", *like)
+                                    : fmt::format("its keys are {}", fmt::join(asked_, ", ")),
+                     node.position);
   }
 }
 

@@ -59,7 +59,4 @@ class Table {
   std::set<std::string> asked_;
 };
 
-/// The known word nearest to `word`, when near enough to be a slip of the pen.
-std::optional<std::string> nearest(const std::string& word, const std::set<std::string>& known);
-
 }  // namespace scarp::input

@@ -1,10 +1,14 @@
 #include "scarp/material/models.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <type_traits>
 #include <utility>
+
+#include "scarp/base/words.hpp"
 
 namespace scarp {
 namespace {
@@ -25,6 +29,17 @@ std::string bounds_text(const ParameterInfo& info) {
   return text;
 }
 
+/// What to choose: "0 <= nu < 0.5", or "a finite number" where all of them will do.
+std::string range_remedy(const ParameterInfo& info) {
+  return info.low || info.high ? "a number with " + bounds_text(info) : "a finite number";
+}
+
+/// "did you mean ...? ", or nothing.
+std::string meant(const std::string& word, const std::set<std::string>& known) {
+  const auto like = nearest(word, known);
+  return like ? fmt::format("did you mean {}? ", *like) : "";
+}
+
 /// A value as messages show it.
 std::string text_of(const Value& value) {
   if (const auto* number = std::get_if<double>(&value)) return fmt::format("the number {}", *number);
@@ -36,6 +51,14 @@ bool within(const ParameterInfo& info, double x) {
   if (!std::isfinite(x)) return false;
   if (info.low && (x < info.low->value || (info.low->open && x == info.low->value))) return false;
   return !(info.high && (x > info.high->value || (info.high->open && x == info.high->value)));
+}
+
+/// All keys that a material of this model may have.
+std::set<std::string> keys_of(const ModelDescription& model) {
+  std::set<std::string> keys{"name", "model", "density", "length"};
+  for (const auto& info : model.parameters) keys.insert(info.key);
+  for (const auto& info : model.settings) keys.insert(info.key);
+  return keys;
 }
 
 /// The constants in full, standard values filled in; what is missing, unknown or out of bounds becomes a problem.
@@ -60,7 +83,8 @@ std::map<std::string, double> checked(const ModelDescription& model, const std::
       const bool finite = std::isfinite(found->second);
       problems.push_back({info.key,
                           fmt::format("{} must satisfy {}", info.key, finite ? bounds_text(info) : "being finite"),
-                          fmt::format("{}", found->second), fmt::format("{}: {}", info.symbol, info.meaning)});
+                          fmt::format("{}", found->second),
+                          fmt::format("choose {} ({}: {})", range_remedy(info), info.symbol, info.meaning)});
     }
     full[info.key] = found->second;
   }
@@ -72,8 +96,9 @@ std::map<std::string, double> checked(const ModelDescription& model, const std::
     bool known = false;
     for (const auto& info : model.parameters) known = known || info.key == key;
     if (!known) {
-      problems.push_back({key, fmt::format("the model {} has no constant {}", model.name, key),
-                          fmt::format("{}", value), fmt::format("`scarp models {}` lists its constants", model.name)});
+      problems.push_back(
+          {key, fmt::format("the model {} has no constant {}", model.name, key), fmt::format("{}", value),
+           fmt::format("{}`scarp models {}` lists its constants", meant(key, keys_of(model)), model.name)});
     }
   }
   return full;
@@ -101,7 +126,8 @@ void check_settings(const ModelDescription& model, const Values& settings, std::
     const bool number = std::any_of(model.parameters.begin(), model.parameters.end(), is_key);
     problems.push_back(
         {key, number ? fmt::format("{} is a number", key) : fmt::format("the model {} has no key {}", model.name, key),
-         text_of(value), fmt::format("`scarp models {}` lists its keys", model.name)});
+         text_of(value),
+         fmt::format("{}`scarp models {}` lists its keys", number ? "" : meant(key, keys_of(model)), model.name)});
   }
 }
 
@@ -131,12 +157,12 @@ std::vector<ModelDescription> model_descriptions() {
 
 ModelResult make_model(const std::string& name, const std::map<std::string, double>& values, const Values& settings) {
   ModelResult result;
-  std::string names;
+  std::vector<std::string> names;
   bool known = false;
   for_each_model([&](auto model) {
     using Model = typename decltype(model)::type;
     const auto description = Model::description();
-    names += (names.empty() ? "" : ", ") + description.name;
+    names.push_back(description.name);
     if (description.name != name) return;
     known = true;
     auto numbers = values;
@@ -153,7 +179,9 @@ ModelResult make_model(const std::string& name, const std::map<std::string, doub
     if (result.problems.empty()) result.model = std::move(*made);
   });
   if (!known) {
-    result.problems.push_back({"model", "there is no such model", '"' + name + '"', "choose one of " + names});
+    result.problems.push_back(
+        {"model", "there is no such model", '"' + name + '"',
+         fmt::format("{}choose one of {}", meant(name, {names.begin(), names.end()}), fmt::join(names, ", "))});
   }
   return result;
 }

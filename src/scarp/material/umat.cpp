@@ -10,6 +10,7 @@
 #include "scarp/base/error.hpp"
 #include "scarp/base/log.hpp"
 #include "scarp/material/initial_values.hpp"
+#include "scarp/material/umat_guard.hpp"
 
 namespace scarp {
 namespace {
@@ -85,9 +86,11 @@ struct Arguments {
 
 template <int N>
 void invoke(umat::Routine routine, Arguments<N>& a, const std::vector<double>& props, const Umat::Parameters& p,
-            double time, double dt, int increment, int nstatv) {
+            double time, double dt, int increment, int nstatv, double coords, double stretch) {
   constexpr std::array<double, 9> identity{1, 0, 0, 0, 1, 0, 0, 0, 1};
-  constexpr std::array<double, 3> origin{};
+  const double beside = std::isnan(stretch) ? stretch : 0;
+  const std::array<double, 9> F{stretch, beside, beside, beside, stretch, beside, beside, beside, stretch};
+  const std::array<double, 3> x{coords, coords, coords};
   constexpr std::array<int, 4> jstep{1, 1, 1, 0};  // step 1, static, large displacements, no perturbation
   constexpr double zero = 0;
   constexpr int one = 1, ndi = 3, nshr = N - 3, ntens = N;
@@ -96,8 +99,8 @@ void invoke(umat::Routine routine, Arguments<N>& a, const std::vector<double>& p
   const std::array<double, 2> times{time, time};
   routine(a.stress.data(), a.statev.data(), a.ddsdde.data(), &sse, &spd, &scd, &rpl, a.ddsddt.data(), a.drplde.data(),
           &drpldt, a.stran.data(), a.dstran.data(), times.data(), &dt, &zero, &zero, &zero, &zero, p.cmname.data(),
-          &ndi, &nshr, &ntens, &nstatv, props.data(), &nprops, origin.data(), identity.data(), &a.pnewdt, &p.celent,
-          identity.data(), identity.data(), &one, &one, &one, &one, jstep.data(), &increment, p.cmname.size());
+          &ndi, &nshr, &ntens, &nstatv, props.data(), &nprops, x.data(), identity.data(), &a.pnewdt, &p.celent,
+          F.data(), F.data(), &one, &one, &one, &one, jstep.data(), &increment, p.cmname.size());
 }
 
 /// Largest term on the diagonal of DDSDDE; not finite where one is not.
@@ -136,7 +139,8 @@ std::string Umat::Fault::text() const {
 }
 
 template <int N>
-Umat::Fault Umat::call(const State<double, N>& s, const Increment<double, N>& i, State<double, N>& next) const {
+Umat::Fault Umat::call(const State<double, N>& s, const Increment<double, N>& i, State<double, N>& next,
+                       const NotPassed& blank) const {
   const auto& p = *parameters_;
   const int nstatv = statev_size<N>();
   const double dt = i.dt > 0 ? i.dt : shortest_time;
@@ -144,10 +148,24 @@ Umat::Fault Umat::call(const State<double, N>& s, const Increment<double, N>& i,
   try {
     std::unique_lock<std::mutex> turn(p.library->turn(), std::defer_lock);
     if (p.one_at_a_time) turn.lock();
-    invoke(p.library->routine(), a, props_, p, s.time, dt, static_cast<int>(std::min(s.increments, 2e9)) + 1, nstatv);
+    if (p.library->ended()) throw umat::EndedProgram("an earlier call of it ended the program");
+    const int increment = static_cast<int>(std::min(s.increments, 2e9)) + 1;
+    umat::call_guarded([&] {
+      invoke(p.library->routine(), a, props_, p, s.time, dt, increment, nstatv, blank.coords, blank.stretch);
+    });
   } catch (const umat::Stopped& stop) {
     throw RunError(title() + " ends the analysis", stop.what(),
                    "see what it writes, and what it demands of its constants and state");
+  } catch (const umat::EndedProgram& end) {
+    p.library->set_ended();
+    throw RunError(title() + " ends the analysis", end.what(),
+                   "see what it writes, and what it demands of its constants and state");
+  } catch (const umat::Crashed& crash) {
+    p.library->set_ended();
+    throw RunError(title() + " crashes", fmt::format("{} at TIME(2) = {:.6g}", crash.what(), s.time),
+                   fmt::format("compile it with -g -fcheck=all to see where; check the numbers of constants (NPROPS = "
+                               "{}) and of values of state (NSTATV = {})",
+                               p.constants.size(), nstatv));
   }
   for (int k = nstatv; k < static_cast<int>(a.statev.size()); ++k) {
     if (a.statev[k] != Arguments<N>::untouched) return {Fault::Kind::overrun, "STATEV", k + 1, a.statev[k]};
@@ -176,18 +194,39 @@ template <int N>
 Trial<Umat::State<double, N>, double> Umat::update(const State<double, N>& s, const Increment<double, N>& i,
                                                    double) const {
   Trial<State<double, N>, double> trial{s, 0.0, {}};
-  const Fault fault = call(s, i, trial.state);
+  const Fault fault = call(s, i, trial.state, {});
   if (fault.kind == Fault::Kind::overrun) {
     throw RunError(title() + " writes beyond its state",
                    fmt::format("{}, with NSTATV = {}", fault.text(), statev_size<N>()),
                    "list every variable of STATEV in state = [...]");
   }
   if (fault.kind == Fault::Kind::not_finite && parameters_->library->first_complaint()) {
-    logging::warn(fmt::format("{} answers with {}; a shorter increment is tried. Later cases are not shown", title(),
-                              fault.text()));
+    logging::warn(fmt::format(
+        "{} answers with {}; a shorter increment is tried. Later cases are not shown (COORDS, "
+        "DFGRD0 and DFGRD1{} are NaN: scarp does not pass them)",
+        title(), fault.text(), std::isnan(parameters_->celent) ? ", and CELENT without the key celent," : ""));
   }
   trial.notes = {false, false, false, fault.kind == Fault::Kind::none};
   return trial;
+}
+
+template <int N>
+std::string Umat::not_passed_but_used(const State<double, N>& start) const {
+  // Answers to a call without strain, as bits: those that the arguments have no part in are equal.
+  const auto answer = [&](const NotPassed& blank) {
+    State<double, N> next = start;
+    const Fault fault = call(start, Increment<double, N>{Sym<double, N>::zero(), 0.0}, next, blank);
+    std::vector<double> all{fault.kind == Fault::Kind::none ? 0.0 : 1.0};
+    for_each_component([&](const double& x) { all.push_back(x); }, next);
+    return all;
+  };
+  constexpr NotPassed nothing{0, 1}, above{1e6, 1}, below{-1e6, 1}, strained{0, 1.5};
+  const auto plain = answer(nothing);
+  if (answer(nothing) != plain) return {};  // not even the same for the same: nothing is learnt from it
+  const auto differs = [&](const NotPassed& blank) { return answer(blank) != plain; };
+  const bool coords = differs({nan, 1}) || differs(above) || differs(below),
+             stretch = differs({0, nan}) || differs(strained);
+  return coords && stretch ? "COORDS and DFGRD0 or DFGRD1" : coords ? "COORDS" : stretch ? "DFGRD0 or DFGRD1" : "";
 }
 
 template <int N>
@@ -195,10 +234,31 @@ void Umat::check_start(const State<double, N>& start, std::vector<Problem>& prob
   State<double, N> next = start;
   Fault fault;
   try {
-    fault = call(start, Increment<double, N>{Sym<double, N>::zero(), 0.0}, next);
+    if (parameters_->library->first_probe()) {
+      if (const auto used = not_passed_but_used(start); !used.empty()) {
+        problems.push_back({"model", fmt::format("{} uses {}, which scarp does not pass", title(), used),
+                            "an answer that depends on it",
+                            "rewrite it in terms of STRESS, STATEV and DSTRAN (for what depends on the place, one "
+                            "material for each region), or take another law"});
+        return;
+      }
+    }
+    fault = call(start, Increment<double, N>{Sym<double, N>::zero(), 0.0}, next, {});
   } catch (const RunError& error) {
     problems.push_back({"model", error.problem(), error.value(), error.remedy()});
     return;
+  }
+  if (fault.kind == Fault::Kind::not_finite && std::isnan(parameters_->celent)) {
+    auto with_length = *parameters_;
+    with_length.celent = 1;
+    Umat other(*this);
+    other.parameters_ = std::make_shared<const Parameters>(std::move(with_length));
+    State<double, N> unused = start;
+    if (other.call(start, Increment<double, N>{Sym<double, N>::zero(), 0.0}, unused, {}).kind == Fault::Kind::none) {
+      problems.push_back({"celent", title() + " uses CELENT, the length of an element, which scarp does not pass",
+                          fault.text(), "add celent = ..., the length that its softening is meant for"});
+      return;
+    }
   }
   if (fault.kind == Fault::Kind::overrun) {
     problems.push_back({"state", title() + " writes beyond its state",

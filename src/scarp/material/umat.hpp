@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -191,8 +192,19 @@ class Umat {
     std::string text() const;
   };
 
+  /// What stands in the arguments that scarp has no value for: NaN, so that it shows when a routine uses them.
+  struct NotPassed {
+    double coords = std::numeric_limits<double>::quiet_NaN();   ///< all of COORDS
+    double stretch = std::numeric_limits<double>::quiet_NaN();  ///< the diagonals of DFGRD0 and DFGRD1; beside it 0,
+                                                                ///< or NaN with it
+  };
+
   template <int N>
-  Fault call(const State<double, N>& s, const Increment<double, N>& i, State<double, N>& next) const;
+  Fault call(const State<double, N>& s, const Increment<double, N>& i, State<double, N>& next,
+             const NotPassed& blank) const;
+  /// The arguments of NotPassed that an answer depends on, "" for none.
+  template <int N>
+  std::string not_passed_but_used(const State<double, N>& start) const;
   /// "the UMAT of CLAY (umat.so)"
   std::string title() const;
   template <int N>

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <set>
 
 #include "scarp/material/umat.hpp"
@@ -141,10 +142,10 @@ ModelDescription Umat::description() {
        {"celent",
         "CELENT",
         "length",
-        "numerical: characteristic length of an element, passed on as CELENT",
-        Bound{0.0, true},
+        "numerical: characteristic length of an element, passed on as CELENT; 0: NaN, so that its use shows",
+        Bound{0.0, false},
         {},
-        1.0}},
+        0.0}},
       {{"umat_strain", "STRAN", "-", "total strain that turns with the body", FieldKind::tensor},
        {"umat_stiffness", "K + 4G/3", "stress", "stiffness for the critical time step", FieldKind::scalar},
        {"umat_time", "TIME(2)", "s", "time that the point has seen", FieldKind::scalar},
@@ -177,7 +178,8 @@ std::optional<Umat> Umat::from_values(const std::map<std::string, double>& const
                                       std::vector<Problem>& problems, std::vector<Problem>&) {
   Parameters p;
   p.wave_modulus = constants.at("wave_modulus");
-  p.celent = constants.at("celent");
+  const double celent = constants.at("celent");
+  p.celent = celent > 0 ? celent : std::numeric_limits<double>::quiet_NaN();
   p.cmname = text_or(settings, "cmname", "UMAT");
   if (p.cmname.size() > 80)
     problems.push_back({"cmname", "CMNAME has at most 80 letters", fmt::format("{}", p.cmname.size()), "shorten it"});

@@ -6,6 +6,8 @@
 
 #include <filesystem>
 
+#include "scarp/material/umat_guard.hpp"
+
 namespace scarp::umat {
 namespace {
 
@@ -48,6 +50,7 @@ std::shared_ptr<Library> Library::open(const std::string& path, const std::strin
     return {};
   }
   std::shared_ptr<Library> library(new Library(path, handle));
+  watch_for_ends();
   const auto names = candidates(symbol);
   for (const auto& name : names) {
     if (void* found = dlsym(handle, name.c_str())) {
@@ -63,7 +66,7 @@ std::shared_ptr<Library> Library::open(const std::string& path, const std::strin
 }
 
 Library::~Library() {
-  dlclose(handle_);
+  if (!ended()) dlclose(handle_);
 }
 
 }  // namespace scarp::umat

@@ -42,6 +42,11 @@ class Library {
   std::mutex& turn() { return turn_; }  ///< held during a call, where calls come one after the other
   /// True for the first caller only: a complaint of every point would say no more than one.
   bool first_complaint() { return !complained_.test_and_set(); }
+  /// True for the first caller only: what a routine reads is asked of it once.
+  bool first_probe() { return !probed_.test_and_set(); }
+  /// Did a call end the program, or crash? Then there may be no other one.
+  bool ended() const { return ended_; }
+  void set_ended() { ended_ = true; }
 
  private:
   Library(std::string path, void* handle) : path_(std::move(path)), handle_(handle) {}
@@ -50,7 +55,8 @@ class Library {
   void* handle_;
   Routine routine_ = nullptr;
   std::mutex turn_;
-  std::atomic_flag complained_;
+  std::atomic_flag complained_, probed_;
+  std::atomic<bool> ended_ = false;
 };
 
 /// Thrown through a UMAT that calls XIT, or STDB_ABQERR with -3: it wants the analysis to end.

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "scarp/base/error.hpp"
+#include "scarp/base/text.hpp"
 #include "scarp/mesh/gmsh/contents.hpp"
 
 namespace scarp {
@@ -101,6 +102,7 @@ Mesh<Dim> read_gmsh(const std::string& path) {
 
 template <int Dim>
 Mesh<Dim> parse_gmsh(const std::string& name, std::string bytes) {
+  drop_byte_order_mark(bytes, name);  // a binary file begins with text, too
   Scanner file(name, std::move(bytes));
   const bool version4 = read_format(file);
   Contents contents;

@@ -19,7 +19,7 @@ namespace scarp {
 ///
 /// Throws InputError, with the line of an ASCII file or the byte of a binary one, when the file is missing, cut short
 /// or damaged, holds other elements, elements of volumes where a plane mesh is asked for or none where one of space is,
-/// or elements that have no area or volume, are not convex, are twisted or overlap their neighbours.
+/// or elements that have no area or volume, are not convex, are twisted, overlap, or meet without sharing nodes.
 template <int Dim = 2>
 Mesh<Dim> read_gmsh(const std::string& path);
 

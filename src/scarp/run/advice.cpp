@@ -28,25 +28,100 @@ double edge(const Mesh<Dim>& mesh, int e) {
   return sum / (Dim == 2 ? 3 : 6);
 }
 
+template <int Dim>
+Vec<Dim> middle_of(const Mesh<Dim>& mesh, int e) {
+  Vec<Dim> x{};
+  if (mesh.grid) {
+    const auto cell = mesh.grid->cell(e);
+    for (int k = 0; k < Dim; ++k) x[k] = mesh.grid->origin[k] + (cell[k] + 0.5) * mesh.grid->spacing[k];
+    return x;
+  }
+  const auto nodes = mesh.element_nodes(e);
+  for (const int n : nodes) {
+    for (int k = 0; k < Dim; ++k) x[k] += mesh.nodes[n][k] / static_cast<double>(nodes.size());
+  }
+  return x;
+}
+
+/// Elements whose middle is in the region: how many, how many of them hold no point of any region, and the edges of
+/// those of these that are smaller than the spacing, and so stay empty by chance in no place only.
+template <int Dim>
+struct Hollow {
+  int elements = 0, empty = 0;
+  std::vector<double> too_small;
+
+  Hollow(const Region<Dim>& region, double spacing, const Body<Dim>& body) {
+    const BoxOf<Dim> box = bounds(region);
+    std::vector<bool> holds(body.mesh->types.size(), false);
+    for (const auto& block : body.blocks) {
+      for (const int e : block.points.element) holds[e] = true;
+    }
+    for (int e = 0; e < body.mesh->element_count(); ++e) {
+      const Vec<Dim> x = middle_of(*body.mesh, e);
+      bool near = true;
+      for (int k = 0; k < Dim; ++k) near = near && x[k] >= box.low[k] && x[k] <= box.high[k];
+      if (!near || !contains(region, x)) continue;
+      ++elements;
+      if (holds[e]) continue;
+      ++empty;
+      if (const double a = edge(*body.mesh, e); a < spacing) too_small.push_back(a);
+    }
+  }
+
+  /// A few small elements where the mesh is fitted to a corner do not count.
+  bool falls_apart() const { return 50 * too_small.size() > static_cast<std::size_t>(elements); }
+};
+
+constexpr int most_searched = 2000000;  ///< elements that are looked through for empty ones without a reason
+
+/// The edge below which a tenth of them are.
+double small_one(std::vector<double> edges) {
+  const auto small = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 10);
+  std::nth_element(edges.begin(), small, edges.end());
+  return *small;
+}
+
 }  // namespace
+
+template <int Dim>
+std::string points_per_element(const Body<Dim>& body) {
+  std::vector<int> counts(body.mesh->types.size(), 0);
+  for (const auto& block : body.blocks) {
+    for (const int e : block.points.element) ++counts[e];
+  }
+  int least = 0, filled = 0;
+  for (const int count : counts) {
+    if (count == 0) continue;
+    least = filled++ == 0 ? count : std::min(least, count);
+  }
+  return fmt::format("{} in {} elements, {:.3g} each on average, {} at least", body.point_count(), filled,
+                     filled > 0 ? static_cast<double>(body.point_count()) / filled : 0.0, least);
+}
 
 template <int Dim>
 void warn_of_sparse_points(const input::CaseOf<Dim>& input, const Body<Dim>& body) {
   for (std::size_t r = 0; r < input.regions.size(); ++r) {
     const auto& element = body.blocks[r].points.element;
     if (element.empty()) continue;
+    const auto& region = input.regions[r];
     std::vector<double> edges(element.size());
     std::transform(element.begin(), element.end(), edges.begin(), [&](int e) { return edge(*body.mesh, e); });
-    // A few small elements where the mesh is fitted to a corner do not count.
-    const auto small = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 10);
-    std::nth_element(edges.begin(), small, edges.end());
-    const auto& region = input.regions[r];
-    if (region.spacing <= 0.5 * *small * (1 + 1e-6)) continue;
+    double small = small_one(std::move(edges));
+    const bool sparse = region.spacing > 0.5 * small * (1 + 1e-6);
+    if (!sparse && (body.mesh->grid || body.mesh->element_count() > most_searched)) continue;
+    const Hollow<Dim> hollow(region.shape(), region.spacing, body);
+    if (!sparse && !hollow.falls_apart()) continue;
+    if (hollow.falls_apart()) small = std::min(small, small_one(hollow.too_small));
+    std::string found = fmt::format("spacing = {:g} in elements of {:.3g}", region.spacing, small);
+    if (hollow.empty > 0)
+      found +=
+          fmt::format("; {} of the {} elements inside it hold no point, and no stress crosses them: it falls apart",
+                      hollow.empty, hollow.elements);
     logging::warn(InputError(fmt::format("region \"{}\" has fewer than two points along an edge of an element, which "
                                          "is too few for its stress and for its books of energy",
                                          region.name),
-                             fmt::format("spacing = {:g} in elements of {:.3g}", region.spacing, *small),
-                             fmt::format("give it spacing = {:.3g} or less, or make the elements larger", 0.5 * *small),
+                             found,
+                             fmt::format("give it spacing = {:.3g} or less, or make the elements larger", 0.5 * small),
                              region.position)
                       .what());
   }
@@ -69,6 +144,8 @@ void warn_of_ignored_flip(const input::CaseOf<Dim>& input) {
   }
 }
 
+template std::string points_per_element(const Body<2>&);
+template std::string points_per_element(const Body<3>&);
 template void warn_of_ignored_flip<2>(const input::CaseOf<2>&);
 template void warn_of_ignored_flip<3>(const input::CaseOf<3>&);
 template void warn_of_sparse_points<2>(const input::CaseOf<2>&, const Body<2>&);

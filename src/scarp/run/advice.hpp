@@ -1,13 +1,19 @@
 // Warnings about a case that can be run but will hardly be what its author wants.
 #pragma once
 
+#include <string>
+
 #include "scarp/input/case.hpp"
 #include "scarp/step/body.hpp"
 
 namespace scarp::run {
 
-/// Warns of regions with fewer than two points along an edge of the elements that hold them, and names the spacing that
-/// would do.
+/// How many points there are, in how many elements, and how many each of these holds, as text.
+template <int Dim>
+std::string points_per_element(const Body<Dim>& body);
+
+/// Warns of regions with fewer than two points along an edge of the elements that hold them, names the spacing that
+/// would do, and says how many elements inside the region hold none.
 template <int Dim>
 void warn_of_sparse_points(const input::CaseOf<Dim>& input, const Body<Dim>& body);
 

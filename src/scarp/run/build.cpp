@@ -8,10 +8,12 @@
 #include <memory>
 
 #include "scarp/base/error.hpp"
+#include "scarp/base/overlap.hpp"
 #include "scarp/mesh/gmsh.hpp"
 #include "scarp/mesh/grid.hpp"
 #include "scarp/points/fill.hpp"
 #include "scarp/points/overburden.hpp"
+#include "scarp/run/boundary_nodes.hpp"
 #include "scarp/run/initial.hpp"
 #include "scarp/run/lengths.hpp"
 
@@ -27,18 +29,6 @@ Mesh<Dim> read_mesh(const input::MeshInputOf<Dim>& input, GridFunctions shape) {
     throw InputError(error.problem(), error.value(), error.remedy(), input.position);
   }
 }
-
-/// The largest coordinate in the mesh, whatever its sign.
-template <int Dim>
-double largest_coordinate(const Mesh<Dim>& mesh) {
-  double largest = 0;
-  for (const auto& x : mesh.nodes) {
-    for (const double coordinate : x) largest = std::max(largest, std::abs(coordinate));
-  }
-  return largest;
-}
-
-constexpr double round_off = 1e-9;  ///< of a mesh's largest coordinate: nodes this far from a place are there
 
 template <int Dim>
 std::unique_ptr<const Mesh<Dim>> make_mesh(const input::CaseOf<Dim>& input) {
@@ -67,86 +57,6 @@ void hold_axis(const Mesh<Dim>& mesh, Conditions<Dim>& conditions) {
   fix(conditions, axis, 0);
 }
 
-/// Nodes within round-off of the segment.
-std::vector<int> nodes_on(const Mesh<2>& mesh, const std::array<Vec<2>, 2>& line) {
-  const double dx = line[1][0] - line[0][0], dy = line[1][1] - line[0][1], length2 = dx * dx + dy * dy;
-  const double tolerance = 1e-9 * std::sqrt(length2);
-  std::vector<int> nodes;
-  for (int n = 0; n < mesh.node_count(); ++n) {
-    const double rx = mesh.nodes[n][0] - line[0][0], ry = mesh.nodes[n][1] - line[0][1];
-    const double t = std::clamp((rx * dx + ry * dy) / length2, 0.0, 1.0);
-    if (std::hypot(rx - t * dx, ry - t * dy) <= tolerance) nodes.push_back(n);
-  }
-  return nodes;
-}
-
-/// Nodes in the box, within round-off of the mesh's size.
-std::vector<int> nodes_in(const Mesh<3>& mesh, const BoxOf<3>& box) {
-  const double tolerance = round_off * largest_coordinate(mesh);
-  std::vector<int> nodes;
-  for (int n = 0; n < mesh.node_count(); ++n) {
-    bool inside = true;
-    for (int j = 0; j < 3; ++j) {
-      const double x = mesh.nodes[n][j];
-      inside = inside && x >= box.low[j] - tolerance && x <= box.high[j] + tolerance;
-    }
-    if (inside) nodes.push_back(n);
-  }
-  return nodes;
-}
-
-/// A side of the grid is held by its own control points; a line or plane between the sides by none.
-template <int Dim>
-void check_on_side(const Mesh<Dim>& mesh, const Vec<Dim>& low, const Vec<Dim>& high, const Position& position) {
-  if (!mesh.grid || mesh.grid->functions != GridFunctions::b_spline) return;
-  const auto& grid = *mesh.grid;
-  bool flat = false, between = false;
-  for (int j = 0; j < Dim; ++j) {
-    const double size = grid.spacing[j] * grid.elements[j], tolerance = 1e-9 * size;
-    if (std::abs(high[j] - low[j]) > tolerance) continue;
-    flat = true;
-    const double from_origin = low[j] - grid.origin[j];
-    between = between || std::min(std::abs(from_origin), std::abs(from_origin - size)) > tolerance;
-  }
-  if (!between && (flat || Dim == 3)) return;
-  throw InputError(Dim == 2 ? "with B-splines the line of a boundary lies on a side of the grid"
-                            : "with B-splines the box of a flat boundary lies on a side of the grid",
-                   fmt::format("({}) to ({})", fmt::join(low, ", "), fmt::join(high, ", ")),
-                   fmt::format("move the side of the grid there, or use shape = \"linear\" or \"gimp\"{}",
-                               Dim == 2 ? "" : ", or give a thick box, whose control points are then held"),
-                   position);
-}
-
-template <int Dim>
-std::vector<int> nodes_in_place(const Mesh<Dim>& mesh, const input::BoundaryInput& input) {
-  if constexpr (Dim == 2) {
-    check_on_side<2>(mesh, (*input.line)[0], (*input.line)[1], input.position);
-    auto nodes = nodes_on(mesh, *input.line);
-    if (!nodes.empty()) return nodes;
-    throw InputError("no node of the mesh lies on the line of this boundary",
-                     fmt::format("({}) to ({})", fmt::join((*input.line)[0], ", "), fmt::join((*input.line)[1], ", ")),
-                     "give a line along edges of elements, or name a node set with nodes = \"...\"", input.position);
-  } else {
-    check_on_side<3>(mesh, input.box->low, input.box->high, input.position);
-    auto nodes = nodes_in(mesh, *input.box);
-    if (!nodes.empty()) return nodes;
-    throw InputError("no node of the mesh lies in the box of this boundary",
-                     fmt::format("({}) to ({})", fmt::join(input.box->low, ", "), fmt::join(input.box->high, ", ")),
-                     "give a box that holds nodes, or name a node set with nodes = \"...\"", input.position);
-  }
-}
-
-template <int Dim>
-std::vector<int> nodes_of(const Mesh<Dim>& mesh, const input::BoundaryInput& input) {
-  if (!input.nodes) return nodes_in_place(mesh, input);
-  const auto found = mesh.node_sets.find(*input.nodes);
-  if (found != mesh.node_sets.end()) return found->second;
-  std::vector<std::string> names;
-  for (const auto& [name, nodes] : mesh.node_sets) names.push_back('"' + name + '"');
-  throw InputError("the mesh has no such node set", '"' + *input.nodes + '"',
-                   fmt::format("choose one of {}", fmt::join(names, ", ")), input.position);
-}
-
 /// What is imposed at nodes, by the boundaries that `counts`.
 template <int Dim, class Counts>
 Conditions<Dim> make_conditions(const Mesh<Dim>& mesh, const input::CaseOf<Dim>& input, Counts&& counts) {
@@ -154,7 +64,7 @@ Conditions<Dim> make_conditions(const Mesh<Dim>& mesh, const input::CaseOf<Dim>&
   hold_axis(mesh, conditions);
   for (const auto& boundary : input.boundaries) {
     if (!counts(boundary)) continue;
-    const auto nodes = nodes_of(mesh, boundary);
+    const auto nodes = boundary_nodes(mesh, boundary);
     const auto fixed = boundary.fixed();
     for (int j = 0; j < Dim; ++j) {
       if (!fixed[j]) continue;
@@ -178,7 +88,7 @@ void for_each_absorbing(const Mesh<Dim>& mesh, const input::CaseOf<Dim>& input, 
   for (const auto& boundary : input.boundaries) {
     if (!boundary.absorbing) continue;
     try {
-      f(AbsorbingSide{nodes_of(mesh, boundary), boundary.absorbing->thickness, boundary.absorbing->impedance},
+      f(AbsorbingSide{boundary_nodes(mesh, boundary), boundary.absorbing->thickness, boundary.absorbing->impedance},
         boundary);
     } catch (const InputError& error) {
       throw InputError(error.problem(), error.value(), error.remedy(), boundary.position);
@@ -207,18 +117,35 @@ Block<Dim> make_block(const input::RegionInputOf<Dim>& region, const input::Mate
   return block;
 }
 
+/// Regions that reach into each other by less than this share of the finer spacing are taken for drawn by hand.
+constexpr double drawn = 0.01;
+
+template <int Dim>
+[[noreturn]] void refuse_overlap(const input::RegionInputOf<Dim>& a, const input::RegionInputOf<Dim>& b,
+                                 const std::string& where) {
+  throw InputError(
+      fmt::format("the regions \"{}\" and \"{}\" overlap", a.name, b.name), where,
+      Dim == 2 ? "let regions share no more than their edges" : "let regions share no more than their faces",
+      a.position);
+}
+
+/// Points of one region in another, and then what their shapes share: less than the spacing may hold no point.
 template <int Dim>
 void check_overlap(const std::vector<input::RegionInputOf<Dim>>& regions, const std::vector<FillingOf<Dim>>& fillings) {
   for (std::size_t a = 0; a < regions.size(); ++a) {
     for (std::size_t b = 0; b < regions.size(); ++b) {
       if (a == b) continue;
-      if (const auto shared = overlap<Dim>(regions[a].shape(), fillings[b])) {
-        throw InputError(
-            fmt::format("the regions \"{}\" and \"{}\" overlap", regions[b].name, regions[a].name),
-            fmt::format("({:.6g}) in both", fmt::join(*shared, ", ")),
-            Dim == 2 ? "let regions share no more than their edges" : "let regions share no more than their faces",
-            regions[b].position);
-      }
+      if (const auto shared = overlap<Dim>(regions[a].shape(), fillings[b]))
+        refuse_overlap(regions[b], regions[a], fmt::format("({:.6g}) in both", fmt::join(*shared, ", ")));
+    }
+  }
+  for (std::size_t b = 0; b < regions.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a) {
+      const auto shared = shared_by(regions[a].shape(), regions[b].shape());
+      if (!shared || shared->depth <= drawn * std::min(regions[a].spacing, regions[b].spacing)) continue;
+      refuse_overlap(regions[b], regions[a],
+                     fmt::format("({:.6g}) in both, {} of {:.3g} in all", fmt::join(shared->at, ", "),
+                                 Dim == 2 ? "an area" : "a volume", shared->volume));
     }
   }
 }

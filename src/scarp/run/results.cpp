@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "scarp/base/error.hpp"
@@ -42,7 +41,7 @@ bool is_ours(const std::string& name) {
   return frame || name.ends_with(".part") || std::find(names.begin(), names.end(), name) != names.end();
 }
 
-void prepare(const fs::path& folder) {
+std::unique_ptr<FolderLock> prepare(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
     throw InputError("the results need a folder, but a file has that name", folder.string(), "choose another --out");
@@ -52,6 +51,7 @@ void prepare(const fs::path& folder) {
     throw InputError("the folder of the results cannot be made", folder.string() + " (" + error.message() + ")",
                      "choose another --out");
   }
+  auto lock = std::make_unique<FolderLock>(folder.string());
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const auto name = entry.path().filename().string();
@@ -64,6 +64,7 @@ void prepare(const fs::path& folder) {
         folder.string(), "choose another --out, or move these files away");
   }
   for (const auto& path : old) fs::remove(path);
+  return lock;
 }
 
 nlohmann::ordered_json search_json(const SearchCounts& search) {
@@ -114,13 +115,10 @@ struct Results<Dim>::Writers {
 template <int Dim>
 Results<Dim>::Results(const input::CaseOf<Dim>& input, const std::string& folder, const Body<Dim>& body)
     : input_(input), folder_(folder) {
-  // Read before the folder is cleared: the case may be the copy that an earlier run left in it.
-  std::ifstream source(input.path, std::ios::binary);
-  const std::string case_text(std::istreambuf_iterator<char>(source), {});
-  prepare(folder);
+  lock_ = prepare(folder);
   // The marker of a folder of results comes first.
   io::write_whole(folder_ + "/summary.json", "{\"status\": \"running\"}\n");
-  io::write_whole(folder_ + "/case.toml", case_text);
+  io::write_whole(folder_ + "/case.toml", input.text);
   io::write_mesh_vtu(folder_ + "/mesh.vtu", *body.mesh);
   writers_ = std::make_unique<Writers>(folder_, history_columns<Dim>(input));
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scarp/input/case.hpp"
+#include "scarp/run/folder_lock.hpp"
 #include "scarp/run/ledger.hpp"
 #include "scarp/step/body.hpp"
 
@@ -36,7 +37,7 @@ template <int Dim>
 class Results {
  public:
   /// Prepares the folder: makes it, or clears an earlier result of scarp out of it. Throws InputError where the folder
-  /// holds other things.
+  /// holds other things, or another run writes into it.
   Results(const input::CaseOf<Dim>& input, const std::string& folder, const Body<Dim>& body);
   ~Results();
   Results(const Results&) = delete;
@@ -50,6 +51,7 @@ class Results {
   struct Writers;
   const input::CaseOf<Dim>& input_;
   std::string folder_;
+  std::unique_ptr<FolderLock> lock_;  ///< held as long as there is something to write
   std::unique_ptr<Writers> writers_;
 };
 

@@ -12,6 +12,7 @@
 #include "scarp/base/log.hpp"
 #include "scarp/exec/parallel.hpp"
 #include "scarp/run/advice.hpp"
+#include "scarp/run/boundary_nodes.hpp"
 #include "scarp/run/build.hpp"
 #include "scarp/run/lengths.hpp"
 #include "scarp/run/rest_watch.hpp"
@@ -139,7 +140,7 @@ std::string check_in(const input::CaseOf<Dim>& input) {
   std::string text = fmt::format("{}: {}\n", input.path, input.title);
   text += fmt::format("  mesh: {} elements, {} nodes, {}\n", body.mesh->element_count(), body.mesh->node_count(),
                       body.mesh->grid ? "a structured grid" : "unstructured");
-  text += fmt::format("  points: {} in {} elements\n", body.point_count(), body.active.size());
+  text += fmt::format("  points: {}\n", points_per_element(body));
   for (const auto& block : body.blocks) {
     double mass = 0, volume = 0;
     for (int i = 0; i < block.size(); ++i) {
@@ -151,6 +152,7 @@ std::string check_in(const input::CaseOf<Dim>& input) {
     text += fmt::format("    region \"{}\": {} points, {} {:.6g} {}{}, mass {:.6g}{}\n", block.name, block.size(),
                         area ? "area" : "volume", volume, area ? "m2" : "m3", area ? "" : share, mass, share);
   }
+  for (const auto& line : describe_boundaries(*body.mesh, input.boundaries)) text += fmt::format("  {}\n", line);
   for (const auto& warning : short_lengths(input, body)) text += fmt::format("  warning: {}\n", warning);
   const double critical = critical_time_step(body, scheme_of(input.method));
   const double dt = input.method.safety * critical;

@@ -6,42 +6,10 @@
 #include <numbers>
 #include <random>
 
-#include "material/samples.hpp"
-#include "scarp/base/error.hpp"
-#include "scarp/material/integrate/embedded.hpp"
+#include "umats.hpp"
 
 namespace scarp::test {
 namespace {
-
-std::string library(const std::string& name) {
-  return SCARP_UMATS "/" + name + ".so";
-}
-
-Record variable(const std::string& name, const std::string& kind = "scalar") {
-  return {{{"name", name}, {"kind", kind}}};
-}
-
-Umat umat(const std::string& name, const std::vector<double>& constants, const std::vector<Record>& state = {},
-          const Values& more = {}) {
-  Values settings{{"library", library(name)}, {"constants", constants}, {"state", state}};
-  for (const auto& [key, value] : more) settings[key] = value;
-  return std::get<Umat>(made("umat", {}, settings));
-}
-
-template <int N>
-Umat::State<double, N> start(const Umat& model, const Sym<double, N>& sigma, const Values& keys = {}) {
-  std::vector<Problem> problems;
-  const auto s = model.initial_state<N>(sigma, sigma[1], keys, problems);
-  if (!problems.empty()) throw std::invalid_argument(problems[0].what + "; " + problems[0].value);
-  return s;
-}
-
-template <int N>
-Sym<double, N> some_stress() {
-  Sym<double, N> sigma = Sym<double, N>::zero();
-  for (int i = 0; i < 4; ++i) sigma[i] = std::array<double, 4>{62, 100, 66, 9}[static_cast<std::size_t>(i)];
-  return sigma;
-}
 
 /// The largest difference between the built-in elastic law and an elastic UMAT along 200 random increments, of the
 /// stress.
@@ -142,17 +110,6 @@ TEST(Umat, NanIsNotTakenAndSaidOnce) {
   EXPECT_EQ(text.find("STRESS(2)"), text.rfind("STRESS(2)")) << text;
 }
 
-/// The error of an increment of strain.
-std::string error_of(const Umat& model) {
-  auto s = start<4>(model, some_stress<4>());
-  try {
-    attempt<ModifiedEuler>(model, s, Sym<double, 4>{{0, 1e-3, 0, 0}}, 1e-4);
-  } catch (const RunError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST(Umat, XitIsAnErrorThatNamesTheMaterial) {
   const auto text = error_of(umat("elastic_c", {2e4, 0.3, 2, -1}, {}, {{"cmname", "CLAY"}}));
   EXPECT_NE(text.find("the UMAT of the material CLAY"), std::string::npos) << text;
@@ -163,13 +120,6 @@ TEST(Umat, WritingBeyondTheDeclaredStateIsAnError) {
   const auto text = error_of(umat("elastic_c", {2e4, 0.3, 3, -1}, {variable("one"), variable("beta", "tensor")}));
   EXPECT_NE(text.find("writes beyond its state; found STATEV(6) = 1, with NSTATV = 5"), std::string::npos) << text;
   EXPECT_NE(text.find("list every variable of STATEV"), std::string::npos) << text;
-}
-
-/// The first problem with an initial state.
-Problem problem_of(const Umat& model, const Values& keys = {}) {
-  std::vector<Problem> problems;
-  model.initial_state<4>(some_stress<4>(), 100, keys, problems);
-  return problems.empty() ? Problem{} : problems.front();
 }
 
 TEST(Umat, AConstantTooFewShowsAtTheStart) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scarp/mesh/gmsh/joints.hpp"
+#include "scarp/mesh/gmsh/sides.hpp"
 #include "scarp/mesh/shapes.hpp"
 #include "scarp/mesh/shapes/valid.hpp"
 
@@ -112,64 +114,20 @@ void check(const Scanner& file, const Element& element, const Mesh<Shape::dim>& 
             "make the mesh again with better shaped elements", element.where);
 }
 
-/// An edge or face of an element, from its lowest node on and then towards the lower of the two beside that; the last
-/// entries are -1 when it has less than four.
-struct Side {
-  std::array<int, 4> nodes;
-  bool backwards;  ///< the element goes round it the other way
-  int element;
-
-  auto operator<=>(const Side&) const = default;
-
-  template <std::size_t Count>
-  Side(const std::array<int, Count>& local, std::span<const int> of, int e) : nodes{-1, -1, -1, -1}, element(e) {
-    for (std::size_t i = 0; i < Count; ++i) nodes[i] = of[local[i]];
-    const auto end = nodes.begin() + Count;
-    const auto lowest = std::min_element(nodes.begin(), end);
-    if constexpr (Count == 2) {
-      backwards = lowest != nodes.begin();
-      if (backwards) std::swap(nodes[0], nodes[1]);
-    } else {
-      std::rotate(nodes.begin(), lowest, end);
-      backwards = nodes[Count - 1] < nodes[1];
-      if (backwards) std::reverse(nodes.begin() + 1, end);
-    }
-  }
-
-  bool same_place(const Side& other) const { return nodes == other.nodes; }
-};
-
-/// All sides, those at the same place one after the other.
-template <int Dim>
-std::vector<Side> sorted_sides(const Mesh<Dim>& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(mesh.connectivity.size());
-  for (int e = 0; e < mesh.element_count(); ++e)
-    with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
-      for (const auto& side : Shape::sides) sides.emplace_back(side, mesh.element_nodes(e), e);
-    });
-  std::sort(sides.begin(), sides.end());
-  return sides;
-}
-
 /// A triangle of an outer face of a tetrahedron that lies on three of the nodes of a hexahedron's outer face.
 void check_mixed(const Scanner& file, const std::vector<Element>& elements, const std::vector<Side>& sides) {
-  const auto outer = [&](std::size_t i) {
-    return !(i > 0 && sides[i].same_place(sides[i - 1])) &&
-           !(i + 1 < sides.size() && sides[i].same_place(sides[i + 1]));
-  };
   const auto sorted = [](std::array<int, 3> nodes) {
     std::sort(nodes.begin(), nodes.end());
     return nodes;
   };
   std::vector<std::pair<std::array<int, 3>, int>> triangles;
   for (std::size_t i = 0; i < sides.size(); ++i)
-    if (const auto& [a, b, c, d] = sides[i].nodes; d < 0 && outer(i))
+    if (const auto& [a, b, c, d] = sides[i].nodes; d < 0 && is_outer(sides, i))
       triangles.emplace_back(sorted({a, b, c}), sides[i].element);
   std::sort(triangles.begin(), triangles.end());
   for (std::size_t i = 0; i < sides.size() && !triangles.empty(); ++i) {
     const auto& [a, b, c, d] = sides[i].nodes;
-    if (d < 0 || !outer(i)) continue;
+    if (d < 0 || !is_outer(sides, i)) continue;
     for (const auto& part : {sorted({a, b, c}), sorted({b, c, d}), sorted({c, d, a}), sorted({d, a, b})}) {
       const auto at = std::lower_bound(triangles.begin(), triangles.end(), std::pair{part, -1});
       if (at == triangles.end() || at->first != part) continue;
@@ -201,6 +159,7 @@ void check_sides(const Scanner& file, const std::vector<Element>& elements, cons
                 "make the mesh again", second.where);
     }
   if constexpr (Dim == 3) check_mixed(file, elements, sides);
+  check_joints(file, elements, mesh, sides);
 }
 
 template void check_shape(const Scanner&, const Element&, const Mesh<2>&, std::vector<int>&);

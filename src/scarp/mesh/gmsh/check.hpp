@@ -12,8 +12,9 @@ namespace scarp::gmsh {
 template <int Dim>
 void check_shape(const Scanner& file, const Element& element, const Mesh<Dim>& mesh, std::vector<int>& nodes);
 
-/// Throws when two elements lie on the same side of one that they share, or when a tetrahedron meets a hexahedron
-/// across a part of a face, where the displacements of the two would differ. Elements as in the mesh.
+/// Throws when two elements lie on the same side of one that they share, when a tetrahedron meets a hexahedron
+/// across a part of a face, where the displacements of the two would differ, or when elements meet without sharing
+/// nodes (check_joints). Elements as in the mesh.
 template <int Dim>
 void check_sides(const Scanner& file, const std::vector<Element>& elements, const Mesh<Dim>& mesh);
 
