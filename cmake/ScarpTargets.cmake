@@ -1,8 +1,7 @@
 include(GoogleTest)
-# scarp_options: the flags that every target of the project shares.
+# scarp_options: the flags that every target of the project shares, and none of its users (ScarpInstall.cmake).
 add_library(scarp_options INTERFACE)
 target_compile_features(scarp_options INTERFACE cxx_std_20)
-target_compile_definitions(scarp_options INTERFACE SCARP_VERSION="${PROJECT_VERSION}")
 target_include_directories(scarp_options INTERFACE ${PROJECT_SOURCE_DIR}/src)
 target_compile_options(scarp_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
 # Eigen serves small dense algebra in set-up and laboratory; g++ 12 warns of its AVX-512 code for 6 × 6 matrices.
@@ -39,17 +38,24 @@ if(SCARP_SANITIZE)
 endif()
 
 # scarp_folder(NAME [SOURCES ...] [DEPENDS folder ...] [LINK target ...]): one target for one folder of src/scarp.
-# DEPENDS names other folders, along the arrows of the architecture; LINK names libraries from outside.
+# DEPENDS names other folders, along the arrows of the architecture; LINK names libraries from outside, HEADERS those
+# of them that are headers alone and in no header of the folder, so that whoever links the installed library needs none.
 function(scarp_folder name)
-  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LINK" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LINK;HEADERS" ${ARGN})
   list(TRANSFORM arg_DEPENDS PREPEND scarp_)
+  list(TRANSFORM arg_HEADERS REPLACE "(.+)" "$<BUILD_INTERFACE:\\1>")
+  set(scope INTERFACE)
   if(arg_SOURCES)
+    set(scope PUBLIC)
     add_library(scarp_${name} STATIC ${arg_SOURCES})
-    target_link_libraries(scarp_${name} PUBLIC scarp_options ${arg_DEPENDS} PRIVATE ${arg_LINK})
+    target_link_libraries(scarp_${name} PUBLIC $<BUILD_INTERFACE:scarp_options> ${arg_DEPENDS} PRIVATE ${arg_LINK} ${arg_HEADERS})
   else()
     add_library(scarp_${name} INTERFACE)
-    target_link_libraries(scarp_${name} INTERFACE scarp_options ${arg_DEPENDS} ${arg_LINK})
+    target_link_libraries(scarp_${name} INTERFACE $<BUILD_INTERFACE:scarp_options> ${arg_DEPENDS} ${arg_LINK})
   endif()
+  target_compile_features(scarp_${name} ${scope} cxx_std_20)
+  set_target_properties(scarp_${name} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY SCARP_FOLDERS scarp_${name})
 endfunction()
 
 # scarp_test(NAME SOURCES ... DEPENDS folder ... [LABEL label]): one GoogleTest program, each of its tests known to ctest.

@@ -1,9 +1,9 @@
-// The version of the program, from the project's CMake file, and the processors that it was compiled for.
+// The version of the program, which CMakeLists.txt reads from here, and the processors that it was compiled for.
 #pragma once
 
 namespace scarp {
 
-inline constexpr const char* version = SCARP_VERSION;
+inline constexpr const char* version = "0.1.0";
 
 /// The level of x86-64 (of its System V ABI) that this code needs, as far as it makes a difference here.
 constexpr const char* instruction_set() {
