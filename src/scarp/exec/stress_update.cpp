@@ -79,15 +79,15 @@ class Update {
     const Batch rate2 = crossing_rate2(modulus, at);
     const unsigned noted = bits_of(trial.notes.corrected || trial.notes.on_floor || trial.notes.separated || !stiff);
     if (done == first_bits(W) && (noted & present) == 0) [[likely]] {
-      const auto store = [&](const auto& lanes) {
+      const auto keep = [&](const auto& lanes) {
         store_state(trial.state, lanes);
         lanes.store(std::uint8_t{0}, points_.flags);
         lanes.store(std::uint8_t{1}, points_.substeps);
       };
       if (p.whole()) [[likely]] {
-        store(WholeLanes<Batch>(p.point(0)));
+        keep(WholeLanes<Batch>(p.point(0)));
       } else {
-        store(p);
+        keep(p);
       }
       work_ += work;
       damping_ += damping;
@@ -252,60 +252,15 @@ class Update {
 
   template <class Lanes>
   State<Batch> load_state(const Lanes& p) const {
-    State<Batch> s;
-    const int columns = state_columns<N>(model_);
-    int c = 0;
-    for_each_component(
-        [&](Batch& x) {
-          x = c < N ? -p.load(points_.sigma[c]) : c - N < columns ? p.load(block_.state[c - N]) : Batch(0.0);
-          ++c;
-        },
-        s);
-    return s;
+    return loaded<Dim, State<Batch>>(model_, block_, [&](const Column& column) { return p.load(column); });
   }
-
   template <class Lanes>
   void store_state(const State<Batch>& s, const Lanes& p) {
-    const int columns = state_columns<N>(model_);
-    int c = 0;
-    for_each_component(
-        [&](const Batch& x) {
-          if (c < N) {
-            p.store(-x, points_.sigma[c]);
-          } else if (c - N < columns) {
-            p.store(x, block_.state[c - N]);
-          }
-          ++c;
-        },
-        s);
+    store<Dim>(model_, s, block_, [&](const Batch& x, Column& column) { p.store(x, column); });
   }
-
-  State<double> load_state(int p) const {
-    State<double> s;
-    const int columns = state_columns<N>(model_);
-    int c = 0;
-    for_each_component(
-        [&](double& x) {
-          x = c < N ? -points_.sigma[c][p] : c - N < columns ? block_.state[c - N][p] : 0.0;
-          ++c;
-        },
-        s);
-    return s;
-  }
-
+  State<double> load_state(int p) const { return state_of<Dim>(block_, model_, p); }
   void store_state(const State<double>& s, int p) {
-    const int columns = state_columns<N>(model_);
-    int c = 0;
-    for_each_component(
-        [&](double x) {
-          if (c < N) {
-            points_.sigma[c][p] = -x;
-          } else if (c - N < columns) {
-            block_.state[c - N][p] = x;
-          }
-          ++c;
-        },
-        s);
+    store<Dim>(model_, s, block_, [p](double x, Column& column) { column[p] = x; });
   }
 
   const Model& model_;

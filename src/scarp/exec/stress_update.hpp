@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "scarp/material/integrate/embedded.hpp"
@@ -67,20 +68,62 @@ double critical_time_step(const Block<Dim>& block, const std::vector<double>& el
                           const ActiveElements& active, const Column& weight, const Column& least_per_mass,
                           const WaveSettings& waves);
 
-/// State of point i of a block of this model, with N components, compression positive.
-template <int Dim, class Model>
-typename Model::template State<double, sym_size<Dim>> state_of(const Block<Dim>& block, const Model& model, int i) {
+/// f(component, its column, whether that is of sigma) for each component of a state that a block of this model keeps in
+/// a column: sigma, tension positive in the arrays of the points and compression positive in the law, and the law's
+/// own. The rest of a state goes to `without(component)`.
+template <int Dim, class Model, class AnyBlock, class S, class F, class G>
+inline void for_each_kept(const Model& model, AnyBlock& block, S& s, F&& f, G&& without) {
   constexpr int N = sym_size<Dim>;
-  typename Model::template State<double, N> s;
   const int columns = state_columns<N>(model);
   int c = 0;
   for_each_component(
-      [&](double& x) {
-        x = c < N ? -block.points.sigma[c][i] : c - N < columns ? block.state[c - N][i] : 0.0;
+      [&](auto& x) {
+        if (c < N) {
+          f(x, block.points.sigma[c], std::true_type{});
+        } else if (c - N < columns) {
+          f(x, block.state[c - N], std::false_type{});
+        } else {
+          without(x);
+        }
         ++c;
       },
       s);
+}
+
+/// State of some points of a block of this model, compression positive; load(column) gives a number of each.
+template <int Dim, class S, class Model, class Load>
+inline S loaded(const Model& model, const Block<Dim>& block, Load&& load) {
+  S s;
+  for_each_kept<Dim>(
+      model, block, s,
+      [&](auto& x, const Column& column, auto of_sigma) {
+        x = load(column);
+        if constexpr (of_sigma) x = -x;
+      },
+      [](auto& x) { x = std::decay_t<decltype(x)>(0.0); });
   return s;
+}
+
+/// To the columns; store(number of each, column).
+template <int Dim, class S, class Model, class Store>
+inline void store(const Model& model, const S& s, Block<Dim>& block, Store&& to) {
+  for_each_kept<Dim>(
+      model, block, s,
+      [&](const auto& x, Column& column, auto of_sigma) {
+        if constexpr (of_sigma) {
+          to(-x, column);
+        } else {
+          to(x, column);
+        }
+      },
+      [](const auto&) {});
+}
+
+/// State of point i of a block of this model, compression positive.
+template <int Dim, class Model>
+typename Model::template State<double, sym_size<Dim>> state_of(const Block<Dim>& block, const Model& model, int i) {
+  return loaded<Dim, typename Model::template State<double, sym_size<Dim>>>(
+      model, block, [i](const Column& column) { return column[i]; });
 }
 
 /// Calls f(model, state of point i) for point i of a block.

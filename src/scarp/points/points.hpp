@@ -24,26 +24,65 @@ enum PointFlag : std::uint8_t { flag_separated = 1, flag_on_floor = 2, flag_fail
 template <int Dim>
 inline constexpr int spin_size = Dim == 2 ? 1 : 3;
 
+/// What an array of the points holds: a number; components along the axes; a symmetric tensor in Mandel components,
+/// which turns with the soil; the components of a tensor row by row.
+enum class PointKind { number, vector, tensor, matrix };
+
+/// Of an array of the points, or a group of them.
+struct PointArray {
+  const char *key, *unit, *meaning;
+  PointKind kind;
+  bool shown;     ///< in frames, as it is
+  bool saved;     ///< the next step depends on it
+  bool optional;  ///< empty where a mesh or scheme has no use for it
+};
+
 /// What every material point carries, whatever its soil. Tension positive, as in section 2 of the report. One entry
-/// per point in each array; per metre of thickness in plane strain.
+/// per point in each array; per metre of thickness in plane strain. Declared here and in each(), from which order,
+/// removal and frames take them.
 template <int Dim>
 struct Points {
   static constexpr int stress_size = sym_size<Dim>;
 
-  Column mass;                            ///< m_p
-  Column volume, initial_volume;          ///< Ω_p
-  std::array<Column, Dim> x, v, x_start;  ///< position, velocity, and the position that displacements count from
-  std::array<Column, Dim> xi;             ///< local coordinates in the element; empty where the mesh needs none stored
-  std::array<Column, stress_size> sigma;  ///< Cauchy stress, Mandel components
-  std::array<Column, stress_size> sigma_ahead;  ///< σ*, what nodes feel where the rate of stress is damped; columns
-                                                ///< that a scheme or body does not need are empty
-  std::array<Column, Dim * Dim> C;     ///< gradient of velocity that a point of an affine scheme carries [1/s], C_jk at
-                                       ///< j Dim + k; empty in others
-  Column eps_q;                        ///< ∫ √(2/3) ‖dev dε‖
-  std::vector<int> element;            ///< element that holds the point
-  std::vector<int> id;                 ///< number at the start of the computation
+  Column mass;
+  Column volume, initial_volume;
+  std::array<Column, Dim> x, v, x_start;
+  std::array<Column, Dim> xi;
+  std::array<Column, stress_size> sigma, sigma_ahead;
+  std::array<Column, Dim * Dim> C;  ///< C_jk at j Dim + k
+  Column eps_q;
+  std::vector<int> element, id;
   std::vector<std::uint8_t> flags;     ///< PointFlag bits
-  std::vector<std::uint8_t> substeps;  ///< of the last stress update, at most 255
+  std::vector<std::uint8_t> substeps;  ///< at most 255
+
+  /// f(what it is, member) for each member of these or const points.
+  template <class Self, class F>
+  static void each(Self& p, F&& f) {
+    using K = PointKind;
+    constexpr bool shown = true, saved = true, optional = true;
+    f(PointArray{"mass", "Mg", "m_p", K::number, !shown, saved, !optional}, p.mass);
+    f(PointArray{"volume", "m³", "Ω_p", K::number, shown, saved, !optional}, p.volume);
+    f(PointArray{"initial_volume", "m³", "Ω_p at the start", K::number, !shown, saved, !optional}, p.initial_volume);
+    f(PointArray{"eps_q", "–", "∫ √(2/3) ‖dev dε‖", K::number, shown, saved, !optional}, p.eps_q);
+    f(PointArray{"x", "m", "position", K::vector, !shown, saved, !optional}, p.x);
+    f(PointArray{"velocity", "m/s", "v_p", K::vector, shown, saved, !optional}, p.v);
+    f(PointArray{"x_start", "m", "position that displacements count from", K::vector, !shown, saved, !optional},
+      p.x_start);
+    f(PointArray{"xi", "–", "local coordinates in the element, where the mesh needs them stored", K::vector, !shown,
+                 saved, optional},
+      p.xi);
+    f(PointArray{"sigma", "kPa", "Cauchy stress, effective", K::tensor, !shown, saved, !optional}, p.sigma);
+    f(PointArray{"sigma_ahead", "kPa", "σ*, what nodes feel where the rate of stress is damped", K::tensor, !shown,
+                 saved, optional},
+      p.sigma_ahead);
+    f(PointArray{"C", "1/s", "gradient of velocity that a point of an affine scheme carries", K::matrix, !shown, saved,
+                 optional},
+      p.C);
+    f(PointArray{"element", "", "element that holds the point", K::number, !shown, saved, !optional}, p.element);
+    f(PointArray{"id", "", "number at the start of the computation", K::number, shown, saved, !optional}, p.id);
+    f(PointArray{"flags", "", "what the last stress update met", K::number, !shown, saved, !optional}, p.flags);
+    f(PointArray{"substeps", "", "of the last stress update", K::number, shown, saved, !optional}, p.substeps);
+  }
 
   int size() const { return static_cast<int>(mass.size()); }
   /// Component j of the displacement of point i.
@@ -89,28 +128,32 @@ struct Block {
   int size() const { return points.size(); }
 };
 
+namespace detail {
+
+/// f(array) of one array, or of each in a group.
+template <class Array, class F>
+void for_each_in(Array& array, F&& f) {
+  f(array);
+}
+template <class Array, std::size_t n, class F>
+void for_each_in(std::array<Array, n>& group, F&& f) {
+  for (auto& array : group) f(array);
+}
+template <class Array, std::size_t n, class F>
+void for_each_in(const std::array<Array, n>& group, F&& f) {
+  for (const auto& array : group) f(array);
+}
+
+}  // namespace detail
+
 /// f(column) for each array of a block that has one entry per point (not order, begin and spare).
 template <int Dim, class F>
 void for_each_column(Block<Dim>& b, F&& f) {
-  auto& p = b.points;
-  for (auto* column : {&p.mass, &p.volume, &p.initial_volume, &p.eps_q}) f(*column);
-  for (auto* group : {&p.x, &p.v, &p.x_start}) {
-    for (auto& column : *group) f(column);
-  }
-  for (auto& column : p.xi) {
-    if (!column.empty()) f(column);
-  }
-  for (auto& column : p.sigma) f(column);
-  for (auto& column : p.sigma_ahead) {
-    if (!column.empty()) f(column);
-  }
-  for (auto& column : p.C) {
-    if (!column.empty()) f(column);
-  }
-  f(p.element);
-  f(p.id);
-  f(p.flags);
-  f(p.substeps);
+  Points<Dim>::each(b.points, [&](const PointArray& info, auto& member) {
+    detail::for_each_in(member, [&](auto& column) {
+      if (!info.optional || !column.empty()) f(column);
+    });
+  });
   for (auto& column : b.state) f(column);
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "scarp/exec/parallel.hpp"
@@ -66,6 +67,22 @@ class Collector {
     });
   }
 
+  /// An array of the points that is shown as it is (PointArray::shown).
+  void shown(const std::string& key) {
+    if (body_.blocks.empty()) return;
+    Points<Dim>::each(body_.blocks[0].points, [&]<class Member>(const PointArray& info, const Member&) {
+      if (!info.shown || key != info.key) return;
+      const auto of_block = members<Member>(key);
+      if constexpr (std::is_same_v<Member, Column>) {
+        add<double>(key, [of_block](int b, int i) { return (*of_block[b])[i]; });
+      } else if constexpr (std::is_same_v<Member, std::array<Column, Dim>>) {
+        add(field<double>(key, 3, [of_block](int b, int i, int j) { return j < Dim ? (*of_block[b])[j][i] : 0.0; }));
+      } else if constexpr (!std::is_same_v<typename Member::value_type, Column>) {
+        add<std::int32_t>(key, [of_block](int b, int i) { return (*of_block[b])[i]; });
+      }
+    });
+  }
+
   void flag(const std::string& name, PointFlag bit) {
     add<std::uint8_t>(
         name, [this_body = &body_, bit](int b, int i) { return (this_body->blocks[b].points.flags[i] & bit) ? 1 : 0; });
@@ -109,6 +126,20 @@ class Collector {
                 for (int c = 0; c < components; ++c) *to++ = static_cast<Value>(value(at.block, at.index, c));
               }
             })};
+  }
+
+  /// The array of this key of each block.
+  template <class Member>
+  std::vector<const Member*> members(const std::string& key) const {
+    std::vector<const Member*> all;
+    for (const auto& block : body_.blocks) {
+      Points<Dim>::each(block.points, [&]<class Other>(const PointArray& info, const Other& other) {
+        if constexpr (std::is_same_v<Other, Member>) {
+          if (key == info.key) all.push_back(&other);
+        }
+      });
+    }
+    return all;
   }
 
   void derived_fields(const std::map<std::string, std::vector<int>>& derived);
@@ -193,20 +224,20 @@ template <int Dim>
 Frame frame_of(const Body<Dim>& body) {
   Collector<Dim> collect(body);
   const auto* blocks = body.blocks.data();
-  collect.template add<std::int32_t>("id", [=](int b, int i) { return blocks[b].points.id[i]; });
+  collect.shown("id");
   collect.template add<std::int32_t>("region", [](int b, int) { return b; });
   collect.add(collect.vector("displacement", [](const Points<Dim>& p, int i, int j) { return p.u(j, i); }));
-  collect.add(collect.vector("velocity", [](const Points<Dim>& p, int i, int j) { return p.v[j][i]; }));
+  collect.shown("velocity");
   collect.tensor("stress", [=](int b, int i, int c) { return -blocks[b].points.sigma[c][i]; });
   collect.scalar("p", mean_stress<Dim>);
   collect.scalar("q", deviatoric_stress_of<Dim>);
   collect.scalar("eps_v", [](const Points<Dim>& p, int i) { return -std::log(p.volume[i] / p.initial_volume[i]); });
-  collect.scalar("eps_q", [](const Points<Dim>& p, int i) { return p.eps_q[i]; });
-  collect.scalar("volume", [](const Points<Dim>& p, int i) { return p.volume[i]; });
+  collect.shown("eps_q");
+  collect.shown("volume");
   collect.scalar("density", [](const Points<Dim>& p, int i) { return p.mass[i] / p.volume[i]; });  // eq. 15
   collect.model_fields();
   collect.kappa_hat();
-  collect.template add<std::int32_t>("substeps", [=](int b, int i) { return blocks[b].points.substeps[i]; });
+  collect.shown("substeps");
   collect.flag("separated", flag_separated);
   collect.flag("on_floor", flag_on_floor);
   collect.flag("corrected", flag_corrected);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "scarp/base/error.hpp"
+#include "scarp/exec/stress_update.hpp"
 #include "scarp/lab/k0.hpp"
 
 namespace scarp::run {
@@ -24,23 +25,6 @@ template <int Dim>
   throw InputError(
       fmt::format("region \"{}\", initial state at ({:.4g}): {}", region.name, fmt::join(x, ", "), problem.what),
       problem.value, problem.remedy, region.position);
-}
-
-template <int Dim, class State>
-void store(Block<Dim>& block, int i, const State& state) {
-  const int columns = static_cast<int>(block.state.size());  // those of κ̂ come after the law's
-  constexpr int N = sym_size<Dim>;
-  int c = 0;
-  for_each_component(
-      [&](const double& value) {
-        if (c < N) {
-          block.points.sigma[c][i] = -value;
-        } else if (c - N < columns) {
-          block.state[c - N][i] = value;
-        }
-        ++c;
-      },
-      state);
 }
 
 /// K0 at any vertical stress of a region: the user's number, or that of the model at the overconsolidation ratio that
@@ -147,7 +131,7 @@ void set_initial_state(Block<Dim>& block, const input::RegionInputOf<Dim>& regio
           const auto state =
               model.template initial_state<sym_size<Dim>>(stress.sigma, stress.vertical, region.initial, problems);
           if (!problems.empty()) refuse<Dim>(region, problems.front(), x);
-          store(block, i, state);
+          exec::store<Dim>(model, state, block, [i](double number, Column& column) { column[i] = number; });
         }
       },
       block.model);
