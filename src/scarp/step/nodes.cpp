@@ -175,7 +175,7 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
     take_velocity<Dim>(body, n, v_next, dt, settings, books);
   } else if (scheme.two_terms) {
     for (int j = 0; j < Dim; ++j) motion.du(j) = v_next[j];
-    if (body.sides.slows(n)) [[unlikely]] {
+    if (resisted && body.sides.slows(n)) [[unlikely]] {
       for (int j = 0; j < Dim; ++j) {
         motion.dv(j) *= body.sides.gamma(n, j);
         motion.du(j) *= body.sides.gamma(n, j);
@@ -244,7 +244,7 @@ void filter_changes(Body<Dim>& body, double dt, const StepSettings& settings, St
         a_dt[j] = scheme::filtered(motion.dv(j), M_w[j], node.per_mass);
         v_next[j] = scheme::filtered(motion.du(j), M_w[Dim + j], node.per_mass);
       }
-      if (body.sides.slows(n)) [[unlikely]] {
+      if (node.acted_on && body.sides.slows(n)) [[unlikely]] {
         for (int j = 0; j < Dim; ++j) {
           const double gamma = body.sides.gamma(n, j);
           a_dt[j] = scheme::filtered_of(gamma, motion.dv(j), M_w[j], node.per_mass);
@@ -317,7 +317,7 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
       if (node.acted_on && is_resisted(body, n, settings.damping)) [[unlikely]]
         v = constrained<Dim>(body, n, scheme, v);
       for (int j = 0; j < Dim; ++j) motion.du(j) = v[j] * dt;  // eq. 16
-      if (body.sides.slows(n)) [[unlikely]] {
+      if (node.acted_on && body.sides.slows(n)) [[unlikely]] {
         for (int j = 0; j < Dim; ++j) {
           if (!filters || !(node.held >> j & 1u)) motion.du(j) *= body.sides.gamma(n, j);
         }
