@@ -98,6 +98,7 @@ class SlopeCut {
     run::StageRecord record;
     run_stage(0, false, record);
     at_rest_ = body_.blocks;
+    conditions_ = body_.conditions;
     ledger_at_rest_ = ledger_;
   }
 
@@ -105,6 +106,8 @@ class SlopeCut {
 
   Repetition cut(bool profile) {
     body_.blocks = at_rest_;
+    body_.conditions = conditions_;  // the cut before this one has let the sides go
+    body_.sides = {};
     ledger_ = ledger_at_rest_;
     reorder(body_);
     body_.out_of_place = 0;
@@ -144,6 +147,7 @@ class SlopeCut {
   run::Results<2> results_;
   run::Progress progress_;
   std::vector<Block<2>> at_rest_;
+  Conditions<2> conditions_;
 };
 
 Prepared slope_cut_failing() {

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -102,6 +103,11 @@ int guarded_main(int argc, char** argv) {
   } catch (const scarp::InputError& error) {
     fmt::print(stderr, "scarp: {}\n", error.what());
     return bad_input;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr,
+               "scarp: there is not enough memory for this case\n"
+               "  remedy: take fewer points or a smaller mesh, end other programs, or raise the limit (ulimit -v)\n");
+    return failed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "scarp: {}\n", error.what());
     return failed;

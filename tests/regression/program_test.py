@@ -5,9 +5,14 @@ Oracles: what README and run.hpp promise; the place of the damage in the text of
 
 import json
 import os
+import pathlib
+import sys
 
 import cases
 from cases import COLUMN, LAB, LAB_COLUMNS, SLOPE, ProgramTest, contents, frame_times, place, read, replaced
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "python", "scarp"))
+import vtu  # noqa: E402  (the project's own reader of frames)
 
 
 class Commands(ProgramTest):
@@ -269,11 +274,22 @@ class Failures(ProgramTest):
         # Nothing carries the column: it sinks through the bottom, slowed by the damping.
         text = replaced(COLUMN, 'nodes = "bottom"\nfix = ["x", "y"]', 'nodes = "bottom"\nfix = ["x"]')
         text = replaced(text, "duration = 0.2", "duration = 1.0")
-        self.expect_failure(text, 'point 0 of region "column" has left the mesh at t = 0.', "s, step ", "leaving")
+        summary = self.expect_failure(text, 'point 0 of region "column" has left the mesh at t = 0.', "s, step ", "leaving")
+        # The last frame is of the failed step, in place and time.
+        self.assertIn(f"at t = {summary['time']:.6g} s, step {summary['steps'] + 1}", summary["message"])
+        last = vtu.read_vtu(vtu.read_pvd(pathlib.Path(self.path("r", "points.pvd")))[-1][1])
+        self.assertLess(last["Points"][0, 1], 0)
         self.scarp("run", "fails.toml", "--quiet", "--out", "r", "--set", "method.leaving=remove", "--set",
                    "stage.settle.duration=0.4")
         summary = json.loads(read(self.path("r", "summary.json")))
         self.assertGreater(summary["removed_points"], 0)
+
+    def test_a_first_step_that_fails_has_its_frame(self):
+        text = replaced(COLUMN, "spacing = 0.25", "spacing = 0.25\nvelocity = [0.0, -1e6]")
+        summary = self.expect_failure(replaced(text, 'nodes = "bottom"\nfix = ["x", "y"]', 'nodes = "bottom"\nfix = ["x"]'), "has left the mesh", "step 1")
+        frames = vtu.read_pvd(pathlib.Path(self.path("r", "points.pvd")))
+        self.assertEqual([time for time, _ in frames], [0, summary["time"]])
+        self.assertLess(vtu.read_vtu(frames[-1][1])["Points"][0, 1], 0)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "scarp/base/zero_pages.hpp"
 #include "scarp/mesh/mesh.hpp"
 
 namespace scarp {
@@ -22,11 +23,11 @@ template <int Dim>
 struct Conditions {
   std::vector<std::uint8_t> fixed;  ///< of each node: bit j set where component j does not move
   std::vector<std::int8_t> normal;  ///< of each node: the wall's normal component, or -1
-  std::vector<double> inward;       ///< +1 or -1: which way along the normal the mesh lies
-  std::vector<double> friction;     ///< coefficient μ
+  ZeroPages<double> inward;         ///< +1 or -1: which way along the normal the mesh lies
+  ZeroPages<double> friction;       ///< coefficient μ
 
   explicit Conditions(int node_count = 0)
-      : fixed(node_count, 0), normal(node_count, -1), inward(node_count, 0.0), friction(node_count, 0.0) {}
+      : fixed(node_count, 0), normal(node_count, -1), inward(node_count), friction(node_count) {}
 };
 
 /// Is nothing imposed at node n?

@@ -35,15 +35,15 @@ void Assembly::rebuild(const Mesh<Dim>& mesh, const ActiveElements& active) {
     int* local = local_.data() + static_cast<std::size_t>(slot) * row_;
     for (const int n : mesh.element_nodes(active.element[slot])) {
       auto& latest = latest_[n];
-      if (latest.position < 0) {
-        latest.position = size();
+      if (latest.position == 0) {
         node_.push_back(n);
+        latest.position = size();
       }
-      if (latest.place < chunk_begin_.back()) {  // the chunk has none for this node yet
-        latest.place = places++;
-        of_place_.push_back(latest.position);
+      if (latest.place <= chunk_begin_.back()) {  // the chunk has none for this node yet
+        latest.place = ++places;
+        of_place_.push_back(latest.position - 1);
       }
-      *local++ = latest.place;
+      *local++ = latest.place - 1;
     }
   }
   chunk_begin_.push_back(places);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "scarp/base/zero_pages.hpp"
 #include "scarp/mesh/basis.hpp"
 #include "scarp/points/points.hpp"
 
@@ -52,10 +53,10 @@ class Assembly {
   std::vector<int> node_, begin_, place_;  ///< active nodes, and their places
   std::vector<int> of_place_;              ///< scratch, of each place: its active node
   struct Latest {
-    int position = -1;  ///< number among the active nodes, or -1
-    int place = -1;     ///< the latest given
+    int position = 0;  ///< one more than its number among the active nodes, or 0
+    int place = 0;     ///< one more than the latest given, or 0
   };
-  std::vector<Latest> latest_;  ///< scratch, of each node of the mesh
+  ZeroPages<Latest> latest_;  ///< scratch, of each node of the mesh
 };
 
 }  // namespace scarp::exec

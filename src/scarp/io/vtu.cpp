@@ -145,10 +145,13 @@ void write_elements(const std::string& path, const Mesh<Dim>& mesh) {
 
 template <int Dim>
 void write_mesh_vtu(const std::string& path, const Mesh<Dim>& mesh) {
-  if (!mesh.grid || mesh.grid->functions == GridFunctions::linear) return write_elements(path, mesh);
+  const bool is_large = mesh.grid && mesh.element_count() > most_elements_shown;
+  if (!is_large && (!mesh.grid || mesh.grid->functions == GridFunctions::linear)) return write_elements(path, mesh);
   Vec<Dim> size;
   for (int k = 0; k < Dim; ++k) size[k] = mesh.grid->spacing[k] * mesh.grid->elements[k];
-  write_elements(path, make_grid<Dim>(mesh.grid->origin, size, mesh.grid->elements));
+  auto elements = mesh.grid->elements;
+  if (is_large) elements.fill(1);
+  write_elements(path, make_grid<Dim>(mesh.grid->origin, size, elements));
 }
 
 template void write_mesh_vtu(const std::string&, const Mesh<2>&);

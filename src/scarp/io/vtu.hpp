@@ -39,8 +39,10 @@ std::vector<Value> values_of(const Field& field, std::size_t count) {
 void write_points_vtu(const std::string& path, std::size_t count, const Field& positions,
                       std::span<const Field> fields);
 
+inline constexpr int most_elements_shown = 2'000'000;
+
 /// Writes the mesh: triangles and quadrilaterals, or tetrahedra and hexahedra. Of a grid the elements with their
-/// corners, whatever its shape functions.
+/// corners, whatever its shape functions; of one of more than most_elements_shown the frame, as one element.
 template <int Dim>
 void write_mesh_vtu(const std::string& path, const Mesh<Dim>& mesh);
 

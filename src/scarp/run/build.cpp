@@ -16,6 +16,7 @@
 #include "scarp/run/boundary_nodes.hpp"
 #include "scarp/run/initial.hpp"
 #include "scarp/run/lengths.hpp"
+#include "scarp/run/memory_need.hpp"
 
 namespace scarp::run {
 namespace {
@@ -154,6 +155,7 @@ void check_overlap(const std::vector<input::RegionInputOf<Dim>>& regions, const 
 
 template <int Dim>
 Body<Dim> build_body(const input::CaseOf<Dim>& input) {
+  check_memory(input);
   Body<Dim> body(make_mesh(input), input.gravity);
   std::vector<FillingOf<Dim>> fillings;
   std::vector<typename OverburdenOf<Dim>::Layer> layers;

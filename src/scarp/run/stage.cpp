@@ -98,14 +98,16 @@ void check_energy(const Context<Dim>& context, bool& said) {
       fmt::format("{}; or allow more with largest_energy_error in [method], 0 for any", energy_remedy));
 }
 
-/// One step of the body; an error tells when it came.
+/// One step of the body; an error tells when it came. The ledger's time is then that of the failed step, for its state
+/// is what the last frame shows.
 template <int Dim>
 StepBooks<Dim> step(Context<Dim>& context, double dt, const StepSettings& settings) {
   try {
     return advance(context.body, dt, settings);
   } catch (const RunError& error) {
+    context.ledger.time += dt;
     throw RunError(
-        fmt::format("{} at t = {:.6g} s, step {}", error.problem(), context.ledger.time + dt, context.ledger.steps + 1),
+        fmt::format("{} at t = {:.6g} s, step {}", error.problem(), context.ledger.time, context.ledger.steps + 1),
         error.value(), error.remedy());
   }
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "scarp/base/zero_pages.hpp"
 #include "scarp/boundary/conditions.hpp"
 #include "scarp/exec/assembly.hpp"
 #include "scarp/mesh/locate.hpp"
@@ -74,15 +75,15 @@ struct Buffers {
   // Of each place of the assembly:
   Column sums;      ///< transfer::node_sums numbers
   Column momentum;  ///< up to transfer::momentum_size numbers
-  // Of every node of the mesh, valid for active ones:
-  std::vector<Node<Dim>> node;
-  std::vector<transfer::Motion<Dim>> motion;
-  std::vector<Vec<Dim>> a_dt;  ///< a dt; where there is a PIC share, with P of held components only
-  std::vector<Vec<Dim>>
+  // Of every node of the mesh, valid for active ones, which alone cost memory:
+  ZeroPages<Node<Dim>> node;
+  ZeroPages<transfer::Motion<Dim>> motion;
+  ZeroPages<Vec<Dim>> a_dt;  ///< a dt; where there is a PIC share, with P of held components only
+  ZeroPages<Vec<Dim>>
       half_path;  ///< with P, of nodes acted on: ½ P v^t dt, half of what forces work on; of a held component its du
-  std::vector<Resistance<Dim>> resistance;  ///< with damping, and where nodes are not free
-  std::vector<Strains<Dim>> strains;        ///< of each thread
-  std::vector<StepBooks<Dim>> books;        ///< of each chunk
+  ZeroPages<Resistance<Dim>> resistance;  ///< with damping, and where nodes are not free
+  std::vector<Strains<Dim>> strains;      ///< of each thread
+  std::vector<StepBooks<Dim>> books;      ///< of each chunk
   // Elements whose quadrature changes with the points that do (reweighted.hpp), and which of all these are.
   std::vector<int> changed;
   std::vector<std::uint8_t> is_changed;
