@@ -68,11 +68,11 @@ class Memory(ProgramTest):
         self.assertGreater(of_element, 30)
         self.assertLess(of_element, 75)
         # The said: in a shell that has room for the arrays of nodes with soil alone.
-        self.write("grid.toml", with_grid(20000))
+        self.write("grid.toml", with_grid(14000))
         status, _, error, _ = self.limited(10_000_000_000, "check", "grid.toml")
         self.assertEqual(status, 2, error)
         said = float(re.search(r"found ([0-9.]+) GB of address space", error)[1])
-        self.assertAlmostEqual(said / (4e8 * 240e-9), 1, delta=0.2)
+        self.assertAlmostEqual(said / (1.96e8 * 240e-9), 1, delta=0.2)
 
     def test_a_large_grid_is_shown_by_its_frame(self):
         self.write("grid.toml", with_grid(1500))

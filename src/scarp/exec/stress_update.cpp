@@ -65,7 +65,7 @@ class Update {
     const auto trial =
         attempt<ModifiedEuler>(model_, turned, Increment<Batch, N>{deps, Batch(dt_)}, settings_.tolerance);
     const auto good = trial.notes.sound && (trial.error <= Batch(settings_.tolerance));
-    p.store(p.load(points_.eps_q) + Batch(0.81649658092772603273) * norm(deviator(deps)), points_.eps_q);
+    p.store(p.load(points_.eps_q) + Batch(sqrt_2_3) * norm(deviator(deps)), points_.eps_q);
 
     const unsigned present = first_bits(p.count()), done = bits_of(good) & present;
     Batch damping(0.0);

@@ -50,7 +50,7 @@ class DruckerPrager : public ElastoplasticLaw<DruckerPrager, PartingState> {
   template <class T, int N>
   At<T, N> resolve(const Sym<T, N>& trial) const {
     const Sym<T, N> s = deviator(trial);
-    return {s, T(1.2247448713915890491) * norm(s), mean(trial)};
+    return {s, T(sqrt_3_2) * norm(s), mean(trial)};
   }
 
   template <class T>

@@ -143,7 +143,7 @@ struct Contact {
 template <class Law, class State, class T, int N>
 Contact<State, T> to_contact(const Law& law, const State& s, const Sym<T, N>& elastic) {
   const Sym<T, N> deps = law.elasticity().strain(elastic);
-  const T dkappa = T(0.81649658092772603273) * norm(deviator(deps));
+  const T dkappa = T(sqrt_2_3) * norm(deviator(deps));
   const auto at = law.resolve(elastic);
   const T first = law.opening(at, s.kappa);
   Closing<T> closing(s.gap, first);
@@ -329,7 +329,7 @@ State initial_state(const Law& law, const Sym<double, N>& sigma, const Values& k
 
 template <int N>
 std::vector<double> derived(const PlasticState<double, N>& s) {
-  return {trace(s.epsp), 0.81649658092772603273 * norm(deviator(s.epsp))};
+  return {trace(s.epsp), sqrt_2_3 * norm(deviator(s.epsp))};
 }
 
 }  // namespace elastoplastic

@@ -8,6 +8,7 @@
 #include "scarp/material/description.hpp"
 #include "scarp/material/drucker_prager.hpp"
 #include "scarp/material/linear_elastic.hpp"
+#include "scarp/material/model.hpp"
 #include "scarp/material/modified_cam_clay.hpp"
 #include "scarp/material/mohr_coulomb.hpp"
 #include "scarp/material/neo_hookean.hpp"
@@ -19,9 +20,18 @@
 
 namespace scarp {
 
+namespace detail {
+/// One of these models, each of which is complete in plane strain and in space.
+template <class... Models>
+struct OneOf {
+  static_assert((model::is_complete<Models, 4>() && ...) && (model::is_complete<Models, 6>() && ...));
+  using type = std::variant<Models...>;
+};
+}  // namespace detail
+
 /// A model with its constants; dispatched once per block of points.
-using AnyModel = std::variant<LinearElastic, Subloading, ViscoplasticSubloading, NeoHookean, ModifiedCamClay, VonMises,
-                              Tresca, MohrCoulomb, DruckerPrager, Umat>;
+using AnyModel = detail::OneOf<LinearElastic, Subloading, ViscoplasticSubloading, NeoHookean, ModifiedCamClay, VonMises,
+                               Tresca, MohrCoulomb, DruckerPrager, Umat>::type;
 
 /// Descriptions of all models, in the order of the list.
 std::vector<ModelDescription> model_descriptions();

@@ -107,7 +107,7 @@ class ModifiedCamClay {
   template <int N>
   std::vector<double> derived(const State<double, N>& s) const {
     const double R = mean(s.sigma) > 0 ? p_c_through(s.sigma) / s.p_c : 0.0;
-    return {R, trace(s.epsp), 0.81649658092772603273 * norm(deviator(s.epsp))};
+    return {R, trace(s.epsp), sqrt_2_3 * norm(deviator(s.epsp))};
   }
 
  private:

@@ -149,7 +149,7 @@ template <class T>
 Correction<std::array<T, 3>, T> principal_correction(const PrincipalReturn<T>& r, const Elasticity& e) {
   const T m = T(1.0 / 3.0) * (r.fall[0] + r.fall[1] + r.fall[2]);
   const T x = r.fall[0] - m, y = r.fall[1] - m, z = r.fall[2] - m;
-  const T dkappa = T(0.81649658092772603273 * 0.5 / e.G) * sqrt(x * x + y * y + z * z);
+  const T dkappa = T(sqrt_2_3 * 0.5 / e.G) * sqrt(x * x + y * y + z * z);
   return {r.fall, select(r.plastic, dkappa, T(0.0)), r.plastic, r.apex};
 }
 

@@ -125,7 +125,7 @@ class NeoHookean {
   template <class T, int N>
   static T largest_principal(const Sym<T, N>& b) {
     const Sym<T, N> dev = deviator(b);
-    return mean(b) + T(0.81649658092772603273) * norm(dev) * cos_third_angle(T(0.0) - cos_3_lode(dev));
+    return mean(b) + T(sqrt_2_3) * norm(dev) * cos_third_angle(T(0.0) - cos_3_lode(dev));
   }
 
   Parameters parameters_;

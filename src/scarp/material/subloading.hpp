@@ -192,7 +192,7 @@ class Subloading {
 
   template <int N>
   std::vector<double> derived(const State<double, N>& s) const {
-    return {homothety(s).R, trace(s.epsp), 0.81649658092772603273 * norm(deviator(s.epsp))};
+    return {homothety(s).R, trace(s.epsp), sqrt_2_3 * norm(deviator(s.epsp))};
   }
 
   /// η_β,cs: the stress ratio that beta tends to (this project's closure), from the critical state ratio M_cs(θ).
@@ -277,8 +277,8 @@ Subloading::Hardening<T, N> Subloading::hardening(const State<T, N>& s, const Im
   // Deviatoric to rounding of its own: that of s̄ is of p, which may be far larger, and would add up in beta.
   const Sym<T, N> direction = deviator(select(size > T(1e-13) * s.p_c, T(1.0) / size, T(0.0)) * s_bar);
   const T eta = eta_beta_cs(T(c_.M_c) * willam_warnke(cos_3_lode_of_unit(direction), c_.k));
-  r.beta = (T(pace_beta_) * y.norm_g_dev * y.p) * (T(0.81649658092772603273) * eta * direction - s.beta);  // eq. 32
-  r.R_b = T(c_.c_b) * (T(c_.R_bf) - s.R_b) * y.norm_g;                                                     // eq. 36
+  r.beta = (T(pace_beta_) * y.norm_g_dev * y.p) * (T(sqrt_2_3) * eta * direction - s.beta);  // eq. 32
+  r.R_b = T(c_.c_b) * (T(c_.R_bf) - s.R_b) * y.norm_g;                                       // eq. 36
   // Over p_c, with one division for R_b/p_c and 1/R_b.
   const T inverse = T(1.0) / (s.p_c * s.R_b);
   const T growth = T(per_plastic_) * (T(1.0) + s.R_b * s.R_b * inverse * T(p_bond_)) * y.g_p +  // eq. 35 of eq. 33

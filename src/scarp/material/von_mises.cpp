@@ -18,7 +18,7 @@ VonMises VonMises::from_values(const std::map<std::string, double>& v, std::vect
   const VonMises law({v.at("E"), v.at("nu"), {v.at("s_u"), v.at("s_u_residual"), v.at("epsp_residual")}});
   elastoplastic::check_softening("s_u", law.parameters_.s_u, problems);
   // Δκ' = √3 s_u'/3G < 1
-  elastoplastic::check_slope("s_u", law.parameters_.s_u.slope(), 1.7320508075688772935 * law.elasticity_.G, problems);
+  elastoplastic::check_slope("s_u", law.parameters_.s_u.slope(), sqrt3 * law.elasticity_.G, problems);
   return law;
 }
 

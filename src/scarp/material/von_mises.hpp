@@ -39,20 +39,20 @@ class VonMises : public ElastoplasticLaw<VonMises> {
   template <class T, int N>
   At<T, N> resolve(const Sym<T, N>& trial) const {
     const Sym<T, N> s = deviator(trial);
-    return {s, T(1.2247448713915890491) * norm(s)};
+    return {s, T(sqrt_3_2) * norm(s)};
   }
 
   /// Radial return (Wilkins 1964): q falls by the excess, 3G Δκ = q − √3 s_u. `size` is the share of s that goes.
   template <class T, int N>
   Correction<T, T> correction(const At<T, N>& at, const T& kappa) const {
-    const T excess = at.q - T(1.7320508075688772935) * parameters_.s_u(kappa);
+    const T excess = at.q - T(sqrt3) * parameters_.s_u(kappa);
     const Mask<T> plastic = excess > T(elastoplastic::on_surface) * at.q, none = T(0.0) != T(0.0);
     const T fall = select(plastic, excess, T(0.0));
     return {fall / select(plastic, at.q, T(1.0)), T(1.0 / (3.0 * elasticity_.G)) * fall, plastic, none};
   }
   template <class T, int N>
   Excess<T> excess(const At<T, N>& at, const T& kappa, const Sym<T, N>& way) const {
-    return {at.q - T(1.7320508075688772935) * parameters_.s_u(kappa), T(1.5) * dot(at.s, way) / max(at.q, T(1e-300))};
+    return {at.q - T(sqrt3) * parameters_.s_u(kappa), T(1.5) * dot(at.s, way) / max(at.q, T(1e-300))};
   }
   template <class T, int N>
   Sym<T, N> compose(const At<T, N>& at, const Correction<T, T>& c) const {
@@ -63,7 +63,7 @@ class VonMises : public ElastoplasticLaw<VonMises> {
   /// they cost remoulded clay that flows some five times the substeps.
   template <class T, int N>
   T error_norm(const PlasticState<T, N>& s, const PlasticState<T, N>& e) const {
-    return elastoplastic::error_norm(e, norm(s.sigma) + T(1.7320508075688772935) * parameters_.s_u(s.kappa));
+    return elastoplastic::error_norm(e, norm(s.sigma) + T(sqrt3) * parameters_.s_u(s.kappa));
   }
 
   /// Elastic; whether the strength carries it depends on the depth, and initial_state() says so.

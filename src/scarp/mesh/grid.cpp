@@ -17,7 +17,7 @@ template <int Dim>
 void check(const Vec<Dim>& origin, const Vec<Dim>& size, const std::array<int, Dim>& elements,
            std::int64_t nodes_each) {
   // Local nodes of all elements are counted by int.
-  const std::int64_t most_elements = std::min<std::int64_t>(200'000'000, 2'000'000'000 / nodes_each);
+  const std::int64_t most_elements = std::min<std::int64_t>(most_grid_elements, 2'000'000'000 / nodes_each);
   std::int64_t total = 1;
   for (int k = 0; k < Dim; ++k) {
     const char axis = "xyz"[k];

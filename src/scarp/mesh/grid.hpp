@@ -8,6 +8,9 @@
 
 namespace scarp {
 
+/// More elements are too many for any grid.
+inline constexpr int most_grid_elements = 200'000'000;
+
 /// A grid of elements[0] x elements[1] (x elements[2]) four-node rectangles (eight-node boxes) over the box of corner
 /// `origin` and lengths `size` [m]; nodes and elements numbered x fastest, then y, then z, with the node sets of the
 /// sides (add_side_sets) and the grid descriptor.

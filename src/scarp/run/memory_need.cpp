@@ -7,6 +7,7 @@
 
 #include "scarp/base/error.hpp"
 #include "scarp/base/memory.hpp"
+#include "scarp/mesh/grid.hpp"
 #include "scarp/step/body.hpp"
 
 namespace scarp::run {
@@ -40,6 +41,7 @@ MemoryNeed memory_need(const input::CaseOf<Dim>& input) {
       nodes *= input.mesh.grid->elements[k] + along.more;
       local *= along.local;
     }
+    if (elements > most_grid_elements) elements = nodes = 0;  // make_grid() will say so
     // Mesh: types, offsets, connectivity, size; ActiveElements::slot, Buffers::is_changed. Mesh::nodes, and of
     // Conditions what is fixed and which way walls look.
     const double bytes = sizeof(ElementType) + (1 + local + 1) * sizeof(int) + sizeof(double) + 1;

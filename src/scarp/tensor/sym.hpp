@@ -10,6 +10,9 @@
 namespace scarp {
 
 inline constexpr double sqrt2 = 1.4142135623730950488;
+inline constexpr double sqrt3 = 1.7320508075688772935;
+inline constexpr double sqrt_2_3 = 0.81649658092772603273;  ///< √(2/3)
+inline constexpr double sqrt_3_2 = 1.2247448713915890491;   ///< √(3/2)
 
 /// Number of Mandel components of a symmetric tensor in a Dim-dimensional analysis.
 template <int Dim>
@@ -96,7 +99,7 @@ inline T norm(const Sym<T, N>& a) {
 /// q = √(3/2) ‖dev a‖
 template <class T, int N>
 inline T deviatoric_stress(const Sym<T, N>& a) {
-  return T(1.2247448713915890491) * norm(deviator(a));
+  return T(sqrt_3_2) * norm(deviator(a));
 }
 
 /// Third invariant J3 = det s of a deviator s.
