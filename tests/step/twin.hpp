@@ -323,8 +323,9 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
     if (lateness == 0 || (mesh.grid && mesh.grid->functions == GridFunctions::gimp)) return false;
     double least = 1e300, most = 0;
     for (const int n : mesh.element_nodes(point.element)) {
-      least = std::min(least, m_[n]);
-      most = std::max(most, m_[n]);
+      const double m = this->is_simplex(point.element) ? m_[n] / this->full_volume_[n] : m_[n];
+      least = std::min(least, m);
+      most = std::max(most, m);
     }
     if (least < 0.2 * most) return false;
     // From the point straight into the element a way of the lateness leads to where it is inside, and the other way

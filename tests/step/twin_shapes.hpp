@@ -19,7 +19,13 @@ class TwinShapes {
   std::vector<Point> points;
 
  protected:
-  explicit TwinShapes(const Body<Dim>& body) : body_(body) {}
+  explicit TwinShapes(const Body<Dim>& body) : body_(body), full_volume_(body.mesh->nodes.size()) {
+    for (int e = 0; e < body_.mesh->element_count() && !body_.mesh->grid; ++e) {
+      for_quadrature_points(e, [&](const auto&, const auto& nodes, double dV) {
+        for (const int n : nodes) full_volume_[n] += dV / static_cast<double>(nodes.size());
+      });
+    }
+  }
 
   /// A point's local nodes with N_i and B̂_i, whose third component is N_i / r in a body of revolution, and the weight w
   /// of its volume; and the mean gradients of its element where the volume strain is their mean.
@@ -102,9 +108,14 @@ class TwinShapes {
     }
   }
 
+  bool is_simplex(int e) const {
+    return !body_.mesh->grid && body_.mesh->element_nodes(e).size() == static_cast<std::size_t>(Dim + 1);
+  }
+
   const Body<Dim>& body_;
   std::vector<AtPoint> at_;             ///< of each point
   std::vector<double> least_per_mass_;  ///< of each element, of schemes that ask for it
+  std::vector<double> full_volume_;     ///< of each node, Σ V_e / K_e over the elements around it, of K_e nodes
   double least_mass_ = 1e300;
 
  private:
@@ -187,10 +198,6 @@ class TwinShapes {
       }
       f(xi, w);
     }
-  }
-
-  bool is_simplex(int e) const {
-    return !body_.mesh->grid && body_.mesh->element_nodes(e).size() == static_cast<std::size_t>(Dim + 1);
   }
 
   /// γ_p: how far the middle of a point is from the nearest line to another cell, over how far its domain reaches,

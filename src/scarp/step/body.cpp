@@ -33,6 +33,19 @@ std::size_t mean_gradient_row(const Mesh<Dim>& mesh) {
   return mesh.grid && mesh.grid->functions == GridFunctions::gimp ? transfer::Means<GridGimp<Dim>>::size : 0;
 }
 
+/// Of each node, Σ V_e / K_e over the elements around it, which have K_e nodes.
+template <int Dim>
+Column volumes_of_nodes(const Mesh<Dim>& mesh) {
+  Column volume(mesh.nodes.size(), 0.0);
+  std::vector<int> elements(mesh.types.size());
+  std::iota(elements.begin(), elements.end(), 0);
+  with_basis<Dim>(mesh, elements.data(), 0, mesh.element_count(), [&]<class Basis>(Basis, int, int e) {
+    const typename Basis::Cell cell(mesh, e);
+    for (const int n : mesh.element_nodes(e)) volume[n] += transfer::Means<Basis>(cell).V / Basis::nodes;
+  });
+  return volume;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -43,6 +56,7 @@ Body<Dim>::Body(std::unique_ptr<const Mesh<Dim>> background, const Vec<Dim>& gra
       conditions(mesh->node_count()),
       gravity(gravitational_acceleration) {
   buffers.shift_row = largest_shift(*mesh);
+  if (!patches.empty()) buffers.full_volume = volumes_of_nodes(*mesh);
 }
 
 template <int Dim>

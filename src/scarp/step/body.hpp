@@ -82,6 +82,7 @@ struct Buffers {
   ZeroPages<Vec<Dim>>
       half_path;  ///< with P, of nodes acted on: ½ P v^t dt, half of what forces work on; of a held component its du
   ZeroPages<Resistance<Dim>> resistance;  ///< with damping, and where nodes are not free
+  Column full_volume;                     ///< Σ V_e / K_e of the K_e nodes of elements e; where there are simplices
   std::vector<Strains<Dim>> strains;      ///< of each thread
   std::vector<StepBooks<Dim>> books;      ///< of each chunk
   // Elements whose quadrature changes with the points that do (reweighted.hpp), and which of all these are.

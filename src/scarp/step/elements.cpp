@@ -159,14 +159,16 @@ unsigned still_inside(const typename Basis::Cell& cell, const Lanes& p, const st
   return inside;
 }
 
-/// Have the nodes of an element masses that differ by no more than a factor of five? A last point that lingers beyond a
-/// free edge would leave a node with next to no mass, or less than none.
+/// Have the nodes of an element masses that differ by no more than a factor of five, in simplices over those of a full
+/// mesh? A last point that lingers beyond a free edge would leave a node with next to no mass, or less than none.
 template <class Basis>
 bool nodes_are_full(const Body<Basis::dim>& body, int e) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const int n : body.mesh->element_nodes(e)) {
-    least = std::min(least, body.buffers.node[n].m);
-    most = std::max(most, body.buffers.node[n].m);
+    double m = body.buffers.node[n].m;
+    if constexpr (is_simplex<Basis>) m /= body.buffers.full_volume[n];
+    least = std::min(least, m);
+    most = std::max(most, m);
   }
   return least >= 0.2 * most;
 }
