@@ -21,10 +21,10 @@ double largest_coordinate(const Mesh<Dim>& mesh) {
 
 namespace {
 
-/// Nodes within round-off of the segment.
+/// Nodes on the segment.
 std::vector<int> nodes_on(const Mesh<2>& mesh, const std::array<Vec<2>, 2>& line) {
   const double dx = line[1][0] - line[0][0], dy = line[1][1] - line[0][1], length2 = dx * dx + dy * dy;
-  const double tolerance = 1e-9 * std::sqrt(length2);
+  const double tolerance = nearness(mesh, line);
   std::vector<int> nodes;
   for (int n = 0; n < mesh.node_count(); ++n) {
     const double rx = mesh.nodes[n][0] - line[0][0], ry = mesh.nodes[n][1] - line[0][1];

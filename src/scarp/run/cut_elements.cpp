@@ -10,7 +10,7 @@
 namespace scarp::run {
 namespace {
 
-constexpr double slack = 1e-6;  ///< of an element's height: what is this near to its side lies on it
+constexpr double slack = 1e-6;  ///< of the least height of an element: what is this near to its side lies on it
 
 /// Corners of an element, anticlockwise; those of a grid are no nodes where its functions are not linear.
 void corners_of(const Mesh<2>& mesh, int e, Polygon& corners) {
@@ -76,12 +76,17 @@ Polygon section_of(const NodePositions<Shape>& x, int axis, double at, double ne
 
 }  // namespace
 
+double nearness(const Mesh<2>& mesh, const std::array<Vec<2>, 2>& segment) {
+  const double length = std::hypot(segment[1][0] - segment[0][0], segment[1][1] - segment[0][1]);
+  return std::max(1e-9 * length, slack * *std::min_element(mesh.size.begin(), mesh.size.end()));
+}
+
 std::optional<Vec<2>> cut_element(const Mesh<2>& mesh, const std::array<Vec<2>, 2>& segment) {
+  const double near = nearness(mesh, segment);
   const double length = std::hypot(segment[1][0] - segment[0][0], segment[1][1] - segment[0][1]);
   Polygon corners;
   for (int e = 0; e < mesh.element_count(); ++e) {
     corners_of(mesh, e, corners);
-    const double near = slack * mesh.size[e];
     const auto [from, to] = part_within(corners, segment, near);
     if (!((to - from) * length > near)) continue;
     const double t = 0.5 * (from + to);

@@ -8,6 +8,9 @@
 
 namespace scarp::run {
 
+/// How near to a segment [m] a node lies on it, and an element's edge along it.
+double nearness(const Mesh<2>& mesh, const std::array<Vec<2>, 2>& segment);
+
 /// A place where the segment between two points lies within an element, by more than round-off from its edges; if any.
 std::optional<Vec<2>> cut_element(const Mesh<2>& mesh, const std::array<Vec<2>, 2>& segment);
 

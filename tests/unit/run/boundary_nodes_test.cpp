@@ -60,6 +60,19 @@ void expect_cut(const Mesh<Dim>& mesh, const input::BoundaryInput& boundary, con
 
 using Nodes = std::vector<int>;
 
+TEST(BoundaryNodes, OfLinesThatAreALittleOff) {
+  // A line holds all nodes or none: there is no tilt at which some are too far to be held and no element is cut.
+  const auto mesh = make_grid({0, 0}, {24, 8}, {48, 16});
+  for (double tilt = 1e-9; tilt < 1e-3; tilt *= 1.5) {
+    try {
+      EXPECT_EQ(boundary_nodes(mesh, line({0, 0}, {24, tilt})).size(), 49u) << tilt;
+    } catch (const InputError& error) {
+      EXPECT_GT(tilt, 1e-7);
+      EXPECT_NE(error.problem().find("passes through elements"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(BoundaryNodes, OfLinesAlongEdges) {
   const auto mesh = triangles();
   EXPECT_EQ(boundary_nodes(mesh, line({0, 0}, {2, 0})), (Nodes{0, 1, 4}));
