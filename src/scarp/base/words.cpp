@@ -28,9 +28,21 @@ std::size_t distance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
+/// The letters and digits of a word, small.
+std::string bare(const std::string& word) {
+  std::string letters;
+  for (const char c : word) {
+    if (std::isalnum(static_cast<unsigned char>(c))) letters += small(c);
+  }
+  return letters;
+}
+
 }  // namespace
 
 std::optional<std::string> nearest(const std::string& word, const std::set<std::string>& known) {
+  for (const auto& candidate : known) {
+    if (bare(candidate) == bare(word)) return candidate;  // "su" is s_u, not nu
+  }
   std::optional<std::string> best;
   std::size_t least = std::max<std::size_t>(1, word.size() / 2) + 1;
   for (const auto& candidate : known) {
