@@ -161,11 +161,14 @@ double larger_side(const Body<Dim>& body) {
   return longest;
 }
 
+/// δ of a side, as given or as the larger side of the soil.
 template <int Dim>
-void check_thickness(const Mesh<Dim>& mesh, const std::vector<Face<Dim>>& faces, double thickness) {
+double thickness_of(const Body<Dim>& body, const AbsorbingSide& side, const std::vector<Face<Dim>>& faces) {
   double h = 0;
-  for (const auto& face : faces) h = std::max(h, mesh.size[face.element]);
-  if (thickness == 0 || thickness >= 5 * h) return;
+  for (const auto& face : faces) h = std::max(h, body.mesh->size[face.element]);
+  if (!side.thickness) return std::max(larger_side(body), 5 * h);
+  const double thickness = *side.thickness;
+  if (thickness == 0 || thickness >= 5 * h) return thickness;
   throw InputError(
       "the soil beyond an absorbing side is at least five elements thick, or its spring would be too stiff",
       fmt::format("thickness = {:g} beside elements of {:.3g}", thickness, h),
@@ -196,8 +199,7 @@ Sides<Dim> soil_beyond(const Body<Dim>& body, const AbsorbingSide& side) {
                      "choose shape = \"linear\" in [method]");
   const auto faces = faces_on(mesh, side.nodes);
   refuse_walls(body, faces);
-  const double thickness = side.thickness.value_or(larger_side(body));
-  check_thickness(mesh, faces, thickness);
+  const double thickness = thickness_of(body, side, faces);
   const auto content = contents(body);
   Sides<Dim> sides;
   sides.of_node.assign(mesh.nodes.size(), -1);
