@@ -6,14 +6,6 @@
 namespace scarp::input::test {
 namespace {
 
-void expect_refused(const Bad& bad) {
-  expect_refused(minimal, bad, [](const std::string& path) { read_case(path); });
-}
-
-void expect_all_refused(const std::vector<Bad>& table) {
-  for (const auto& bad : table) expect_refused(bad);
-}
-
 TEST(BadCase, UnknownKeys) {
   expect_all_refused({
       {"every = 0.25", "@evry = 0.25", "[output] has no key evry", "0.25", "did you mean every?"},
@@ -365,7 +357,7 @@ TEST(BadCase, FilesThatCannotBeRead) {
 TEST(BadCase, MeshNamesThatNoFileCanHave) {
   const std::string grid = "grid = { origin = [-1.0, 0.0], size = [4.0, 2.0], element = 0.5 }";
   // Longer than file systems allow.
-  expect_refused({grid, "@file = \"" + std::string(5000, 'm') + "\"", "the mesh file", "", "case file's folder"});
+  expect_all_refused({{grid, "@file = \"" + std::string(5000, 'm') + "\"", "the mesh file", "", "case file's folder"}});
 }
 
 }  // namespace

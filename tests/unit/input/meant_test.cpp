@@ -6,10 +6,6 @@
 namespace scarp::input::test {
 namespace {
 
-void expect_all_refused(const std::vector<Bad>& table) {
-  for (const auto& bad : table) expect_refused(minimal, bad, [](const std::string& path) { read_case(path); });
-}
-
 TEST(Meant, KeysOfAnotherTable) {
   expect_all_refused({
       {"every = 0.25", "every = 0.25\n@damping = 0.5", "[output] has no key damping", "0.5", "a key of [[stage]]"},

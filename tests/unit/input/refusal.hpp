@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "minimal.hpp"
 
@@ -50,6 +51,11 @@ void expect_refused(const std::string& good, const Bad& bad, Read&& read_file) {
     EXPECT_NE(error.remedy().find(bad.remedy), std::string::npos) << error.what();
     EXPECT_FALSE(error.remedy().empty());
   }
+}
+
+/// Demands that the minimal case is refused with each change of a table.
+inline void expect_all_refused(const std::vector<Bad>& table) {
+  for (const auto& bad : table) expect_refused(minimal, bad, [](const std::string& path) { read_case(path); });
 }
 
 }  // namespace scarp::input::test
