@@ -1,7 +1,6 @@
 // How much memory there is, asked before much of it is taken.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 namespace scarp {

@@ -56,11 +56,6 @@ void for_lattice(const std::array<int, Dim>& counts, F&& f) {
   }
 }
 
-/// Functions along an axis of n elements.
-int functions_along(GridFunctions functions, int n) {
-  return functions == GridFunctions::b_spline ? n + 2 : n + 1;
-}
-
 /// Place of function i along an axis, in elements from the origin: a line, or the mean of two inner knots (Greville).
 double place_along(GridFunctions functions, int n, int i) {
   return functions == GridFunctions::b_spline ? std::clamp(i - 0.5, 0.0, static_cast<double>(n)) : i;
@@ -118,11 +113,18 @@ void shorten_side_elements(Mesh<Dim>& mesh) {
 
 }  // namespace
 
+int functions_along(GridFunctions functions, int n) {
+  return functions == GridFunctions::b_spline ? n + 2 : n + 1;
+}
+int local_functions_along(GridFunctions functions) {
+  return touched_along(functions, 0).count;
+}
+
 template <int Dim>
 Mesh<Dim> make_grid(const std::type_identity_t<Vec<Dim>>& origin, const std::type_identity_t<Vec<Dim>>& size,
                     const std::type_identity_t<std::array<int, Dim>>& elements, GridFunctions functions) {
   std::size_t nodes_each = 1;
-  for (int k = 0; k < Dim; ++k) nodes_each *= static_cast<std::size_t>(touched_along(functions, 0).count);
+  for (int k = 0; k < Dim; ++k) nodes_each *= static_cast<std::size_t>(local_functions_along(functions));
   check<Dim>(origin, size, elements, static_cast<std::int64_t>(nodes_each));
   std::array<int, Dim> lines;  // of nodes along each axis
   std::size_t element_count = 1, node_count = 1;

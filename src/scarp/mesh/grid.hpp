@@ -11,6 +11,10 @@ namespace scarp {
 /// More elements are too many for any grid.
 inline constexpr int most_grid_elements = 200'000'000;
 
+/// Functions along an axis of n elements, and those of them that an element touches.
+int functions_along(GridFunctions functions, int n);
+int local_functions_along(GridFunctions functions);
+
 /// A grid of elements[0] x elements[1] (x elements[2]) four-node rectangles (eight-node boxes) over the box of corner
 /// `origin` and lengths `size` [m]; nodes and elements numbered x fastest, then y, then z, with the node sets of the
 /// sides (add_side_sets) and the grid descriptor.

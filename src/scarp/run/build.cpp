@@ -160,7 +160,7 @@ Body<Dim> build_body(const input::CaseOf<Dim>& input) {
   std::vector<FillingOf<Dim>> fillings;
   std::vector<typename OverburdenOf<Dim>::Layer> layers;
   for (const auto& region : input.regions) {
-    const double count = volume(region.shape()) / std::pow(region.spacing, Dim);
+    const double count = expected_points(region);
     if (!(count < 2e8)) {
       throw InputError(fmt::format("region \"{}\" has too many points", region.name),
                        fmt::format("about {:.3g}", count), "enlarge its spacing", region.position);

@@ -13,33 +13,36 @@
 namespace scarp::run {
 namespace {
 
-/// Nodes along an axis, and local nodes of an element along it.
-struct AlongAxis {
-  int more, local;
-};
-AlongAxis along_axis(GridFunctions functions) {
-  switch (functions) {
-    case GridFunctions::gimp:
-      return {1, 4};
-    case GridFunctions::b_spline:
-      return {2, 3};
-    default:
-      return {1, 2};
-  }
+/// Of the arrays of points without their state; gradients of velocity are those of an affine scheme.
+template <int Dim>
+double bytes_of_point(bool affine) {
+  double bytes = 0;
+  const Points<Dim> none;
+  Points<Dim>::each(none, [&](const PointArray& info, const auto& member) {
+    if (info.kind == PointKind::matrix && !affine) return;
+    detail::for_each_in(
+        member, [&]<class Array>(const Array&) { bytes += static_cast<double>(sizeof(typename Array::value_type)); });
+  });
+  return bytes;
 }
 
 }  // namespace
 
 template <int Dim>
+double expected_points(const input::RegionInputOf<Dim>& region) {
+  return volume(region.shape()) / std::pow(region.spacing, Dim);
+}
+
+template <int Dim>
 MemoryNeed memory_need(const input::CaseOf<Dim>& input) {
   MemoryNeed need;
   if (input.mesh.grid) {
-    const auto along = along_axis(input.method.shape);
+    const auto functions = input.method.shape;
     double elements = 1, nodes = 1, local = 1;
     for (int k = 0; k < Dim; ++k) {
       elements *= input.mesh.grid->elements[k];
-      nodes *= input.mesh.grid->elements[k] + along.more;
-      local *= along.local;
+      nodes *= functions_along(functions, input.mesh.grid->elements[k]);
+      local *= local_functions_along(functions);
     }
     if (elements > most_grid_elements) elements = nodes = 0;  // make_grid() will say so
     // Mesh: types, offsets, connectivity, size; ActiveElements::slot, Buffers::is_changed. Mesh::nodes, and of
@@ -50,14 +53,12 @@ MemoryNeed memory_need(const input::CaseOf<Dim>& input) {
     need.addresses = nodes * static_cast<double>(sizeof(Node<Dim>) + sizeof(transfer::Motion<Dim>) +
                                                  2 * sizeof(Vec<Dim>) + sizeof(Resistance<Dim>) + 4 * sizeof(double));
   }
-  // Points: mass, volumes, eps_q, four vectors, σ and σ*, whole numbers; of their elements what a step keeps, and
-  // lists.
-  constexpr double of_points = 4 + 4 * Dim + 2 * sym_size<Dim> + 2, of_element = Dim == 2 ? 150 : 250;
+  constexpr double of_element = Dim == 2 ? 150 : 250;  // a point's part of what a step keeps for elements, and of lists
+  const double of_point = bytes_of_point<Dim>(input.method.scheme == input::SchemeName::apic) + of_element;
   for (const auto& region : input.regions) {
-    const double count = volume(region.shape()) / std::pow(region.spacing, Dim);
     const int columns = std::visit([](const auto& m) { return state_columns<sym_size<Dim>>(m); },
                                    input.materials[region.material].model);
-    need.points += count * (sizeof(double) * (of_points + columns) + of_element);
+    need.points += expected_points(region) * (of_point + static_cast<double>(sizeof(double)) * columns);
   }
   return need;
 }
@@ -81,6 +82,8 @@ void check_memory(const input::CaseOf<Dim>& input) {
                    is_grid ? input.mesh.position : input.regions.front().position);
 }
 
+template double expected_points<2>(const input::RegionInputOf<2>&);
+template double expected_points<3>(const input::RegionInputOf<3>&);
 template MemoryNeed memory_need<2>(const input::CaseOf<2>&);
 template MemoryNeed memory_need<3>(const input::CaseOf<3>&);
 template void check_memory<2>(const input::CaseOf<2>&);

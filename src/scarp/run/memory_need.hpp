@@ -5,6 +5,10 @@
 
 namespace scarp::run {
 
+/// How many points will fill a region, about.
+template <int Dim>
+double expected_points(const input::RegionInputOf<Dim>& region);
+
 /// [bytes]
 struct MemoryNeed {
   double grid = 0;       ///< arrays of the grid, and of its nodes and elements
