@@ -92,10 +92,6 @@ int parse_and_call(int argc, char** argv) {
   return scarp::app::run_script("plot.py", plot_command->remaining());
 }
 
-}  // namespace
-
-namespace {
-
 /// The exit status, with the error on standard error.
 int guarded_main(int argc, char** argv) {
   try {

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 namespace scarp::run {
+namespace {
 
+/// Has this case use for a term of the energies?
 template <int Dim>
 bool is_used(const EnergyTerm& term, const input::CaseOf<Dim>& input) {
   const auto any = [](const auto& items, auto&& has) { return std::any_of(items.begin(), items.end(), has); };
@@ -16,6 +18,8 @@ bool is_used(const EnergyTerm& term, const input::CaseOf<Dim>& input) {
       return true;
   }
 }
+
+}  // namespace
 
 template <int Dim>
 std::vector<HistoryColumn<Dim>> history_columns(const input::CaseOf<Dim>& input) {
@@ -68,8 +72,6 @@ std::vector<HistoryColumn<Dim>> history_columns(const input::CaseOf<Dim>& input)
   return columns;
 }
 
-template bool is_used<2>(const EnergyTerm&, const input::CaseOf<2>&);
-template bool is_used<3>(const EnergyTerm&, const input::CaseOf<3>&);
 template std::vector<HistoryColumn<2>> history_columns<2>(const input::CaseOf<2>&);
 template std::vector<HistoryColumn<3>> history_columns<3>(const input::CaseOf<3>&);
 

@@ -27,8 +27,4 @@ struct HistoryColumn {
 template <int Dim>
 std::vector<HistoryColumn<Dim>> history_columns(const input::CaseOf<Dim>& input);
 
-/// Has this case use for a term of the energies?
-template <int Dim>
-bool is_used(const EnergyTerm& term, const input::CaseOf<Dim>& input);
-
 }  // namespace scarp::run

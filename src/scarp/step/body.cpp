@@ -41,7 +41,8 @@ Column volumes_of_nodes(const Mesh<Dim>& mesh) {
   std::iota(elements.begin(), elements.end(), 0);
   with_basis<Dim>(mesh, elements.data(), 0, mesh.element_count(), [&]<class Basis>(Basis, int, int e) {
     const typename Basis::Cell cell(mesh, e);
-    for (const int n : mesh.element_nodes(e)) volume[n] += transfer::Means<Basis>(cell).V / Basis::nodes;
+    const double share = transfer::Means<Basis>(cell).V / Basis::nodes;
+    for (const int n : mesh.element_nodes(e)) volume[n] += share;
   });
   return volume;
 }
