@@ -84,7 +84,7 @@ Columns<N> make_points(const Subloading& model) {
     Sym<double, N> deps;
     for (int j = 0; j < N; ++j) deps[j] = 1e-5 * normal(generator) + (j == 1 ? 5e-6 : 0.0);
     const auto trial = attempt<ModifiedEuler>(model, s, deps, tolerance);
-    if (!trial.notes.sound || !(trial.error < 0.5 * tolerance)) continue;
+    if (!trial.flags.sound || !(trial.error < 0.5 * tolerance)) continue;
     std::size_t field = 0;
     for_each_component([&](const double& x) { c.state[field++][at] = x; }, s);
     for (std::size_t j = 0; j < N; ++j) c.deps[j][at] = deps[static_cast<int>(j)];
@@ -114,7 +114,7 @@ void update(benchmark::State& loop) {
         rotate(s, Rotation<T, N>(spin));
       }
       const auto trial = attempt<ModifiedEuler>(model, s, deps, tolerance);
-      const auto good = trial.notes.sound && (trial.error <= T(tolerance));
+      const auto good = trial.flags.sound && (trial.error <= T(tolerance));
       const auto end = select_state(good, trial.state, s);
       field = 0;
       for_each_component([&](const T& x) { store(x, out.state[field++], i); }, end);

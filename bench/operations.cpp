@@ -104,7 +104,7 @@ int count_update(const Model& model) {
   operations = 0;
   rotate(model, s, Rotation<Counted, N>(spin));
   const auto trial = attempt<ModifiedEuler>(model, s, Increment<Counted, N>{deps, Counted(1e-4)}, 1e-4);
-  if (!trial.notes.sound || !(trial.error.v < 1e-4)) throw std::logic_error("the update needs several substeps");
+  if (!trial.flags.sound || !(trial.error.v < 1e-4)) throw std::logic_error("the update needs several substeps");
   (void)model.p_wave_modulus(trial.state);
   return operations;
 }

@@ -13,7 +13,7 @@ TYPED_TEST_P(Conformance, ZeroIncrementChangesNothing) {
   EXPECT_EQ(components(s), components(before));  // to the last bit
   if constexpr (HasUpdate<TypeParam> && !TimeDependent<TypeParam>) {
     const auto trial = attempt<ModifiedEuler>(this->model_, s, Sym<double, 6>::zero(), 1e-4);
-    EXPECT_TRUE(trial.notes.sound);
+    EXPECT_TRUE(trial.flags.sound);
     EXPECT_EQ(trial.error, 0);
     EXPECT_EQ(components(trial.state), components(before));
   } else if constexpr (!HasUpdate<TypeParam>) {
@@ -27,9 +27,9 @@ TYPED_TEST_P(Conformance, AcceptLeavesAnAdmissibleStateAlone) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     auto s = this->template general_state<6>(seed);
     const auto before = s;
-    const auto notes = this->model_.accept(s, 1e-4);
-    EXPECT_TRUE(notes.sound);
-    EXPECT_FALSE(notes.corrected);
+    const auto flags = this->model_.accept(s, 1e-4);
+    EXPECT_TRUE(flags.sound);
+    EXPECT_FALSE(flags.corrected);
     EXPECT_EQ(components(s), components(before));
   }
 }
@@ -65,7 +65,7 @@ TYPED_TEST_P(Conformance, WaveModulusIsTheStiffnessOfUnloading) {
 template <class Fixture, class State>
 [[gnu::noinline]] State change_in_one_attempt(Fixture& f, const State& s, const Increment<double, 6>& i) {
   const auto trial = attempt<ModifiedEuler>(f.model_, s, i, 1e-4);
-  EXPECT_TRUE(trial.notes.sound);
+  EXPECT_TRUE(trial.flags.sound);
   return advanced(trial.state, -1.0, s);
 }
 
@@ -181,7 +181,7 @@ TYPED_TEST_P(Conformance, WhatOpensClosesFirst) {
     const auto go = [&](double strain) {
       const auto report = integrate<ModifiedEuler>(model, s, in_time(isotropic<double, 6>(strain)), {1e-6, 1e-9});
       EXPECT_EQ(report.end, IntegrationEnd::done);
-      return report.notes.separated;
+      return report.flags.separated;
     };
     EXPECT_TRUE(go(-0.01));
     EXPECT_EQ(norm(s.sigma), 0);

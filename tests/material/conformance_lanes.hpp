@@ -25,7 +25,7 @@ void expect_batch_is_double(Fixture& f) {
     for_each_component([&](double& x, const Batch& b) { x = lane(b, i); }, out, trial.state);
     EXPECT_LT(relative_difference(one.state, out), 1e-12);
     EXPECT_NEAR(lane(trial.error, i), one.error, 1e-10 * one.error + 1e-15);
-    EXPECT_EQ(trial.notes.sound.get(i), one.notes.sound);
+    EXPECT_EQ(trial.flags.sound.get(i), one.flags.sound);
     EXPECT_NEAR(lane(modulus, i) / f.model_.p_wave_modulus(s[i]), 1, 1e-14);
   }
 }
@@ -55,7 +55,7 @@ void expect_mixed_lanes(Fixture& f, std::size_t idle) {
     auto out = one.state;
     for_each_component([&](double& x, const Batch& b) { x = lane(b, i); }, out, trial.state);
     EXPECT_LT(relative_difference(one.state, out), 1e-12);
-    EXPECT_EQ(trial.notes.sound.get(i), one.notes.sound);
+    EXPECT_EQ(trial.flags.sound.get(i), one.flags.sound);
     if (i == idle && !(HasUpdate<Model> && TimeDependent<Model>)) {  // a law of others counts its calls
       EXPECT_EQ(components(out), components(s[i]));
       EXPECT_EQ(lane(trial.error, i), 0);

@@ -151,15 +151,15 @@ TEST(ModifiedCamClay, FloorSeparationAndLoadAgain) {
   const auto model = clay({{"p_e", 5}, {"p_c_floor", 0.01}});
   for (double shear : {0.0, 2e-4}) {
     auto s = start(model, 1.2);
-    Notes<double> notes{};
+    UpdateFlags<double> flags{};
     for (int i = 0; i < 3000; ++i) {
-      notes = strain<ModifiedEuler>(model, s, triaxial(-3e-4, shear), 1e-4).notes;
+      flags = strain<ModifiedEuler>(model, s, triaxial(-3e-4, shear), 1e-4).flags;
       EXPECT_GE(s.p_c, 1.01325 * (1 - 1e-12));
       EXPECT_GE(mean(s.sigma), -1e-4 * s.p_c);  // the surface ends at 0; the tolerance
     }
-    EXPECT_TRUE(notes.on_floor);
+    EXPECT_TRUE(flags.on_floor);
     EXPECT_EQ(s.p_c, 1.01325);
-    EXPECT_EQ(notes.separated, shear == 0);
+    EXPECT_EQ(flags.separated, shear == 0);
     const double eta = 1.5 + std::sqrt(1.5 * 1.5 + M * M);
     if (shear == 0) {
       EXPECT_EQ(norm(s.sigma), 0);

@@ -44,7 +44,7 @@ TEST(ModifiedCamClay, CrossingCostsNoSubsteps) {
     const auto deps = random_tensor<6>(generator, 1e-4) + isotropic<double, 6>(0.7e-4);
     const auto report = strain<ModifiedEuler>(model, s, deps, 1e-4);
     EXPECT_EQ(report.substeps + report.rejected, 1);
-    EXPECT_FALSE(report.notes.corrected);
+    EXPECT_FALSE(report.flags.corrected);
     crossings += norm(s.epsp) > 0;
   }
   EXPECT_GT(crossings, 30);
@@ -113,8 +113,8 @@ TEST(ModifiedCamClay, MixedLanesGiveWhatDoubleGives) {
     const auto trial = attempt<ModifiedEuler>(model, many, pack<6>(deps), 1e-4);
     for (std::size_t i = 0; i < batch_lanes; ++i) {
       const auto one = attempt<ModifiedEuler>(model, s[i], deps[i], 1e-4);
-      EXPECT_EQ(trial.notes.sound.get(i), one.notes.sound);
-      EXPECT_EQ(trial.notes.on_floor.get(i), one.notes.on_floor);
+      EXPECT_EQ(trial.flags.sound.get(i), one.flags.sound);
+      EXPECT_EQ(trial.flags.on_floor.get(i), one.flags.on_floor);
       EXPECT_LT(norm(lane(trial.state.sigma, i) - one.state.sigma), 1e-12 * norm(one.state.sigma));
       EXPECT_LT(norm(lane(trial.state.epsp, i) - one.state.epsp), 1e-12 * norm(deps[i]));
       EXPECT_NEAR(lane(trial.state.p_c, i), one.state.p_c, 1e-12 * one.state.p_c);

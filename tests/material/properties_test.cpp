@@ -79,7 +79,7 @@ void stays_sound(double size, double tolerance) {
       return;
     }
     RC_ASSERT(report.reached == 1);
-    RC_ASSERT(report.notes.sound);
+    RC_ASSERT(report.flags.sound);
   }
 }
 

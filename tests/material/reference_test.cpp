@@ -58,7 +58,7 @@ Differences replay(const Reference& reference, double tolerance, double R_tolera
       ADD_FAILURE() << reference.name << " stops at point " << i;
       return differences;
     }
-    EXPECT_FALSE(report.notes.corrected);
+    EXPECT_FALSE(report.flags.corrected);
     differences.add(s, point.state);
     R_error = std::max(R_error, std::abs(model.homothety(s).R - point.R));
   }

@@ -239,13 +239,13 @@ std::string fault(const M& model, const State& before, const State& s, const Int
   if (!model.admissible(s)) return "inadmissible";
   if (const auto what = beyond(model, s, settings); !what.empty()) return "beyond its surface: " + what;
   auto again = s;
-  const auto notes = model.accept(again, settings.tolerance);
-  if (!notes.sound) return "not accepted";
+  const auto flags = model.accept(again, settings.tolerance);
+  if (!flags.sound) return "not accepted";
   // One that stands on the surface may be taken to it again, by rounding of the stress that came back to it.
   for_each_component([](double& x, const double& y) { x -= y; }, again, s);
   if (!(model.error_norm(s, again) < 1e-9)) return fmt::format("moved again, by {}", model.error_norm(s, again));
   const bool done = report.end == IntegrationEnd::done;
-  if (done && (report.reached != 1 || !report.notes.sound)) return "done, but not all of it";
+  if (done && (report.reached != 1 || !report.flags.sound)) return "done, but not all of it";
   if (!done && !(report.reached < 1)) return "all of it, but not done";
   if (!done && report.reached == 0 && !same) return "no part done, but the state has moved";
   return "";

@@ -295,10 +295,10 @@ TEST(Viscoplastic, AcceptedStatesKeepTheirBounds) {
     for (double overstress : {-0.1, 0.2, 0.5}) {
       auto s = isotropic_state(R);
       s.overstress = overstress;
-      const auto notes = model.accept(s, 1e-4);
-      EXPECT_EQ(notes.sound, R < 1.5);
+      const auto flags = model.accept(s, 1e-4);
+      EXPECT_EQ(flags.sound, R < 1.5);
       EXPECT_EQ(model.admissible(s), R < 1.5);
-      EXPECT_FALSE(notes.corrected);
+      EXPECT_FALSE(flags.corrected);
       EXPECT_NEAR(R_of(model, s), R, 1e-12);                                          // R > 1 is not pulled back
       EXPECT_DOUBLE_EQ(s.overstress, std::max(0.0, std::min(overstress, R - 0.01)));  // R_min ≤ R_s ≤ R
     }

@@ -106,11 +106,11 @@ Updated<N> update_stress(const Model& model, State& s, const Kinematics& k, doub
   const Sym<double, N> turned = s.sigma;
   const Increment<double, N> increment{deps, dt};
   const auto whole = attempt<ModifiedEuler>(model, s, increment, settings.tolerance);
-  if (whole.notes.sound && whole.error <= settings.tolerance) {
+  if (whole.flags.sound && whole.error <= settings.tolerance) {
     s = whole.state;
-    return {turned, whole.notes.separated};
+    return {turned, whole.flags.separated};
   }
-  return {turned, integrate<ModifiedEuler>(model, s, increment, settings, 0.5).notes.separated};
+  return {turned, integrate<ModifiedEuler>(model, s, increment, settings, 0.5).flags.separated};
 }
 
 }  // namespace scarp::test

@@ -64,7 +64,7 @@ class Update {
 
     const auto trial =
         attempt<ModifiedEuler>(model_, turned, Increment<Batch, N>{deps, Batch(dt_)}, settings_.tolerance);
-    const auto good = trial.notes.sound && (trial.error <= Batch(settings_.tolerance));
+    const auto good = trial.flags.sound && (trial.error <= Batch(settings_.tolerance));
     p.store(p.load(points_.eps_q) + Batch(sqrt_2_3) * norm(deviator(deps)), points_.eps_q);
 
     const unsigned present = first_bits(p.count()), done = bits_of(good) & present;
@@ -77,7 +77,7 @@ class Update {
     const Batch modulus = model_.p_wave_modulus(trial.state);
     const auto stiff = modulus > Batch(0.0);
     const Batch rate2 = crossing_rate2(modulus, at);
-    const unsigned noted = bits_of(trial.notes.corrected || trial.notes.on_floor || trial.notes.separated || !stiff);
+    const unsigned noted = bits_of(trial.flags.corrected || trial.flags.on_floor || trial.flags.separated || !stiff);
     if (done == first_bits(W) && (noted & present) == 0) [[likely]] {
       const auto keep = [&](const auto& lanes) {
         store_state(trial.state, lanes);
@@ -103,7 +103,7 @@ class Update {
         books_.work += work.get(lane);
         books_.damping += damping.get(lane);
         record(p.point(l), 1,
-               {trial.notes.corrected.get(lane), trial.notes.on_floor.get(lane), trial.notes.separated.get(lane), true},
+               {trial.flags.corrected.get(lane), trial.flags.on_floor.get(lane), trial.flags.separated.get(lane), true},
                IntegrationEnd::done);
         bound_time_step(modulus.get(lane) * closed_share(trial.state, lane), at + l);
       } else {
@@ -119,7 +119,7 @@ class Update {
                                           const Trial<State<Batch>, Batch>& trial, const Mask<Batch>& good,
                                           const Sym<Batch, N>& deps, int at) {
     const auto& now = trial.state;
-    const Batch share = select(trial.notes.separated, Batch(0.0),
+    const Batch share = select(trial.flags.separated, Batch(0.0),
                                share_ahead(model_.p_wave_modulus(now), increment(strains_.per_mass, at)));
     Batch rate(0.0);
     for (int c = 0; c < N; ++c) {
@@ -156,7 +156,7 @@ class Update {
           books_.work += strains_.volume[at] * 0.5 * dot(start.state.sigma + end.sigma, start.whole.deps);
           if (damped_) look_ahead(p, at, start, end, report);
           store_state(end, p);
-          record(p, report.substeps, report.notes, report.end);
+          record(p, report.substeps, report.flags, report.end);
           bound_time_step(model_.p_wave_modulus(end) * closed_share(end), at);
         },
         settings_, 0.5);
@@ -166,7 +166,7 @@ class Update {
   /// The same for one point, whose columns still hold the start.
   void look_ahead(int p, int at, const Task<Model, N>& start, const State<double>& end,
                   const IntegrationReport& report) {
-    const bool follows = report.end == IntegrationEnd::done && !report.notes.separated;
+    const bool follows = report.end == IntegrationEnd::done && !report.flags.separated;
     const double share = follows ? share_ahead(model_.p_wave_modulus(end), strains_.per_mass[at]) : 0.0;
     double rate = 0;
     for (int c = 0; c < N; ++c) {
@@ -190,17 +190,17 @@ class Update {
     return task;
   }
 
-  void record(int p, int substeps, const Notes<double>& notes, IntegrationEnd end) {
+  void record(int p, int substeps, const UpdateFlags<double>& flags, IntegrationEnd end) {
     const bool failed = end != IntegrationEnd::done;
     points_.flags[p] =
-        static_cast<std::uint8_t>((notes.separated ? flag_separated : 0) | (notes.on_floor ? flag_on_floor : 0) |
-                                  (failed ? flag_failed : 0) | (notes.corrected ? flag_corrected : 0));
+        static_cast<std::uint8_t>((flags.separated ? flag_separated : 0) | (flags.on_floor ? flag_on_floor : 0) |
+                                  (failed ? flag_failed : 0) | (flags.corrected ? flag_corrected : 0));
     points_.substeps[p] = static_cast<std::uint8_t>(std::min(substeps, 255));
     books_.substeps += substeps;
     books_.most_substeps = std::max(books_.most_substeps, substeps);
-    books_.separated += notes.separated;
-    books_.on_floor += notes.on_floor;
-    books_.corrected += notes.corrected;
+    books_.separated += flags.separated;
+    books_.on_floor += flags.on_floor;
+    books_.corrected += flags.corrected;
     if (failed && books_.failures++ == 0) {
       books_.failed_id = points_.id[p];
       books_.failed_end = end;

@@ -169,8 +169,8 @@ class Constrained {
     const auto found = strain_of<Pair>(s.soil, share, tolerance);
     const auto strain = found.value_or(Sym<double, 6>::zero());
     const auto soil = attempt<Pair>(model_, s.soil, Increment<double, 6>{strain, share.value * dt_}, tolerance);
-    Trial<State<double, 6>, double> trial{{soil.state, s.eps + strain}, soil.error, soil.notes};
-    trial.notes.sound = soil.notes.sound && found.has_value();
+    Trial<State<double, 6>, double> trial{{soil.state, s.eps + strain}, soil.error, soil.flags};
+    trial.flags.sound = soil.flags.sound && found.has_value();
     return trial;
   }
 
@@ -185,7 +185,7 @@ class Constrained {
   double error_norm(const State<double, 6>& s, const State<double, 6>& e) const {
     return std::hypot(model_.error_norm(s.soil, e.soil), norm(e.eps));
   }
-  Notes<double> accept(State<double, 6>& s, double tolerance) const { return model_.accept(s.soil, tolerance); }
+  UpdateFlags<double> accept(State<double, 6>& s, double tolerance) const { return model_.accept(s.soil, tolerance); }
   bool idle() const { return b_.isZero(0) && (!TimeDependent<Model> || dt_ == 0); }
 
  private:
@@ -198,7 +198,7 @@ class Constrained {
     const Increment<double, 6> increment{as_sym(strain), share.value * dt_};
     if constexpr (HasUpdate<Model>) {
       const auto trial = attempt<Pair>(model_, soil, increment, tolerance);
-      if (!trial.notes.sound) return {Vector6::Constant(std::numeric_limits<double>::quiet_NaN()), false};
+      if (!trial.flags.sound) return {Vector6::Constant(std::numeric_limits<double>::quiet_NaN()), false};
       return {as_vector(trial.state.sigma - soil.sigma), true};
     } else {
       const auto rate = rate_of(model_, soil, increment);

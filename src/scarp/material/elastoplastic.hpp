@@ -228,8 +228,8 @@ Trial<State, T> update_closed(const Law& law, const State& s, const Sym<T, N>& e
   const Mask<T> exact = !plastic || (r.error <= T(rounding));
   r.error = select(exact, T(0.0), r.error);
   r.state = select_state(!plastic, r.state, whole.state);
-  r.notes.separated = plastic && whole.parted;
-  r.notes.sound = r.notes.sound && whole.sound;
+  r.flags.separated = plastic && whole.parted;
+  r.flags.sound = r.flags.sound && whole.sound;
   if (all(exact)) return r;
 
   better = advanced(better, T(1.0), difference);
@@ -240,8 +240,8 @@ Trial<State, T> update_closed(const Law& law, const State& s, const Sym<T, N>& e
   }
   const auto last = returned(law, better, Sym<T, N>::zero());
   r.state = select_state(exact, r.state, last.state);
-  r.notes.separated = (exact && r.notes.separated) || (!exact && second.parted);
-  r.notes.sound = r.notes.sound && (exact || (start.sound && first.sound && second.sound && last.sound));
+  r.flags.separated = (exact && r.flags.separated) || (!exact && second.parted);
+  r.flags.sound = r.flags.sound && (exact || (start.sound && first.sound && second.sound && last.sound));
   return r;
 }
 
@@ -260,7 +260,7 @@ Trial<State, T> update(const Law& law, const State& s, const Sym<T, N>& deps) {
         miss.sigma[0] = select(r.state.gap > T(0.0), T(0.0), stress);
         r.error = r.error + law.error_norm(r.state, miss);
       }
-      r.notes.separated = r.notes.separated || (r.state.gap > T(0.0));
+      r.flags.separated = r.flags.separated || (r.state.gap > T(0.0));
       return r;
     }
   }
@@ -274,9 +274,9 @@ auto accept(const Law& law, State& s) {
   const auto on = returned(law, s, std::decay_t<decltype(s.sigma)>::zero());
   s = select_state(on.plastic, on.state, s);
   const Mask<T> none = T(0.0) != T(0.0);
-  Notes<T> notes{on.plastic, none, on.parted, on.sound};
-  if constexpr (HasGap<State>) notes.separated = notes.separated || (s.gap > T(0.0));
-  return notes;
+  UpdateFlags<T> flags{on.plastic, none, on.parted, on.sound};
+  if constexpr (HasGap<State>) flags.separated = flags.separated || (s.gap > T(0.0));
+  return flags;
 }
 
 /// √(sum of squares) of the error of stress over `scale` and of the absolute ones of the plastic strain, κ and the gap.
@@ -353,7 +353,7 @@ class ElastoplasticLaw {
     return trace(s.sigma) == trace(s.sigma);
   }
   template <class T, int N>
-  Notes<T> accept(State<T, N>& s, double) const {
+  UpdateFlags<T> accept(State<T, N>& s, double) const {
     return elastoplastic::accept(law(), s);
   }
   /// The elastic one, of unloading.

@@ -56,7 +56,7 @@ class LinearElastic {
   }
 
   template <class T, int N>
-  Notes<T> accept(State<T, N>& s, double) const {
+  UpdateFlags<T> accept(State<T, N>& s, double) const {
     const Mask<T> nan = s.sigma[0] != s.sigma[0], none = T(0.0) != T(0.0);
     return {none, none, none, !nan};
   }

@@ -41,7 +41,7 @@ concept HasErrorNorm = requires(const M& m, const StateOf<M, N>& s) {
 };
 template <class M, int N>
 concept HasAccept = requires(const M& m, StateOf<M, N>& s) {
-  { m.accept(s, 1e-6) } -> std::convertible_to<Notes<double>>;
+  { m.accept(s, 1e-6) } -> std::convertible_to<UpdateFlags<double>>;
 };
 template <class M, int N>
 concept HasStiffness = requires(const M& m, const StateOf<M, N>& s) {
@@ -66,7 +66,7 @@ constexpr bool is_complete() {
   static_assert(HasAdmissible<M, N>, "a model needs admissible(s): may the law be evaluated here?");
   static_assert(HasErrorNorm<M, N>, "a model needs error_norm(s, e): the size of a state error");
   static_assert(HasAccept<M, N>,
-                "a model needs accept(s, tolerance): corrections at the end of an increment, as Notes");
+                "a model needs accept(s, tolerance): corrections at the end of an increment, as UpdateFlags");
   static_assert(HasStiffness<M, N>, "a model needs p_wave_modulus(s): K + 4G/3, for the time step");
   static_assert(HasInitialState<M, N>, "a model needs initial_state<N>(sigma, vertical, keys, problems)");
   static_assert(HasDerived<M, N>,

@@ -86,7 +86,7 @@ class ModifiedCamClay {
   }
 
   template <class T, int N>
-  Notes<T> accept(State<T, N>& s, double tolerance) const;
+  UpdateFlags<T> accept(State<T, N>& s, double tolerance) const;
 
   /// K + 4G/3
   template <class T, int N>
@@ -149,7 +149,7 @@ class ModifiedCamClay {
     template <class S>
     auto accept(const S& s, double) const {
       const auto sound = law.admissible(s);
-      return Notes<decltype(s.p_c + s.p_c)>{!sound, !sound, !sound, sound};
+      return UpdateFlags<decltype(s.p_c + s.p_c)>{!sound, !sound, !sound, sound};
     }
   };
 
@@ -263,33 +263,33 @@ Trial<ModifiedCamClay::State<T, N>, T> ModifiedCamClay::update(const State<T, N>
     return_to_surface(plastic.state, (f > T(0.0)) || (loading(flow(plastic.state), deps) > T(0.0)));
     trial.state = select_state(inside, trial.state, plastic.state);
     trial.error = select(inside, T(0.0), plastic.error);
-    sound = sound && (inside || plastic.notes.sound);
+    sound = sound && (inside || plastic.flags.sound);
     drifted = !inside && (abs(f) > band);
   }
-  trial.notes = accept(trial.state, tolerance);
-  trial.notes.corrected = trial.notes.corrected || drifted;
-  trial.notes.sound = trial.notes.sound && sound;
+  trial.flags = accept(trial.state, tolerance);
+  trial.flags.corrected = trial.flags.corrected || drifted;
+  trial.flags.sound = trial.flags.sound && sound;
   return trial;
 }
 
 template <class T, int N>
-Notes<T> ModifiedCamClay::accept(State<T, N>& s, double tolerance) const {
-  Notes<T> notes;
+UpdateFlags<T> ModifiedCamClay::accept(State<T, N>& s, double tolerance) const {
+  UpdateFlags<T> flags;
   // Dilation drives p_c to zero in soil that shears at a free surface, and strength and stiffness with it.
-  notes.sound = s.p_c > T(0.0);
-  notes.on_floor = s.p_c <= T(floor_ * (1.0 + 1e-9));
-  s.p_c = select(notes.on_floor, T(floor_), s.p_c);
-  notes.corrected = yield(s.sigma, s.p_c) > T(tolerance) * s.p_c * s.p_c;
-  return_to_surface(s, notes.corrected);
+  flags.sound = s.p_c > T(0.0);
+  flags.on_floor = s.p_c <= T(floor_ * (1.0 + 1e-9));
+  s.p_c = select(flags.on_floor, T(floor_), s.p_c);
+  flags.corrected = yield(s.sigma, s.p_c) > T(tolerance) * s.p_c * s.p_c;
+  return_to_surface(s, flags.corrected);
 
   // The yield surface ends at p = 0. At its floor nothing is left of it there: the point parts from the body, until it
   // is compressed. Without p_e no stress comes to p = 0, and none could leave it.
   const T p = mean(s.sigma);
-  notes.separated = notes.on_floor && (p <= T(tolerance) * s.p_c) && (T(c_.p_e) > T(0.0));
-  for (int i = 0; i < N; ++i) s.sigma[i] = select(notes.separated, T(0.0), s.sigma[i]);
+  flags.separated = flags.on_floor && (p <= T(tolerance) * s.p_c) && (T(c_.p_e) > T(0.0));
+  for (int i = 0; i < N; ++i) s.sigma[i] = select(flags.separated, T(0.0), s.sigma[i]);
   const T excess = yield(s.sigma, s.p_c);
-  notes.sound = notes.sound && admissible(s) && (excess <= T(2.0 * tolerance) * s.p_c * s.p_c);
-  return notes;
+  flags.sound = flags.sound && admissible(s) && (excess <= T(2.0 * tolerance) * s.p_c * s.p_c);
+  return flags;
 }
 
 }  // namespace scarp

@@ -73,7 +73,7 @@ class NeoHookean {
     trial.state.b = triple_product(exponential(T(-1.0) * increment.deps), s.b);
     trial.state.sigma = stress(trial.state.b);
     trial.error = T(2.0) * exponential_error(increment.deps);
-    trial.notes = accept(trial.state, tolerance);
+    trial.flags = accept(trial.state, tolerance);
     // Rounding would move a state to which nothing happens.
     trial.state = select_state(dot(increment.deps, increment.deps) == T(0.0), s, trial.state);
     return trial;
@@ -92,7 +92,7 @@ class NeoHookean {
   }
 
   template <class T, int N>
-  Notes<T> accept(State<T, N>& s, double) const {
+  UpdateFlags<T> accept(State<T, N>& s, double) const {
     const Mask<T> none = T(0.0) != T(0.0);
     return {none, none, none, admissible(s)};
   }

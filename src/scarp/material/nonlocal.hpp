@@ -100,7 +100,7 @@ class Nonlocal {
     return sqrt(of_law * of_law + e.kappa * e.kappa);
   }
   template <class T, int N>
-  Notes<T> accept(State<T, N>& s, double tolerance) const {
+  UpdateFlags<T> accept(State<T, N>& s, double tolerance) const {
     return law_.accept(s, tolerance);
   }
   template <class T, int N>
@@ -251,8 +251,8 @@ class Nonlocal<Law> {
     Own<T, N> start = s;
     const auto fallen = elastoplastic::accept(law, start);
     auto trial = elastoplastic::update(law, start, i.deps);
-    trial.notes.sound = trial.notes.sound && fallen.sound;
-    Trial<State<T, N>, T> r{{}, trial.error, trial.notes};
+    trial.flags.sound = trial.flags.sound && fallen.sound;
+    Trial<State<T, N>, T> r{{}, trial.error, trial.flags};
     static_cast<Own<T, N>&>(r.state) = trial.state;
     r.state.kappa_hat = kappa_hat;
     r.state.kappa_rate = s.kappa_rate;
@@ -267,7 +267,7 @@ class Nonlocal<Law> {
     return law_.error_norm(s, e);
   }
   template <class T, int N>
-  Notes<T> accept(State<T, N>& s, double) const {
+  UpdateFlags<T> accept(State<T, N>& s, double) const {
     return elastoplastic::accept(elastoplastic::OfStrengthAt<Law, T>(law_, s.kappa_hat), static_cast<Own<T, N>&>(s));
   }
   template <class T, int N>

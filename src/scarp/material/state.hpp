@@ -39,7 +39,7 @@ struct Rate {
 
 /// What happened to a point at the end of an increment.
 template <class T>
-struct Notes {
+struct UpdateFlags {
   Mask<T> corrected;  ///< stress pulled back to the yield surface
   Mask<T> on_floor;   ///< a hardening variable stands at its floor
   Mask<T> separated;  ///< no tensile strength left: stress set to zero
@@ -50,8 +50,8 @@ struct Notes {
 template <class State, class T>
 struct Trial {
   State state;
-  T error;         ///< relative, in the model's norm
-  Notes<T> notes;  ///< `sound` there: every stage and the end admissible, and the law solvable
+  T error;               ///< relative, in the model's norm
+  UpdateFlags<T> flags;  ///< `sound` there: every stage and the end admissible, and the law solvable
 };
 
 template <class T>

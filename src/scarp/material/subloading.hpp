@@ -159,17 +159,17 @@ class Subloading {
   }
 
   template <class T, int N>
-  Notes<T> accept(State<T, N>& s, double tolerance) const;
+  UpdateFlags<T> accept(State<T, N>& s, double tolerance) const;
 
   /// Dilation drives p_c to zero in soil that shears at a free surface; below the floor `a` would lose its yield
   /// surface.
   template <class T, int N>
-  Notes<T> hold_at_floor(State<T, N>& s) const;
+  UpdateFlags<T> hold_at_floor(State<T, N>& s) const;
 
   /// At the floor the bonds are gone and so is the tensile strength: the point parts from the body, until it is
   /// compressed as far as it has opened. `exists`: the stress has a homothety.
   template <class T, int N>
-  void part_where_torn(State<T, N>& s, const Mask<T>& exists, Notes<T>& notes) const;
+  void part_where_torn(State<T, N>& s, const Mask<T>& exists, UpdateFlags<T>& flags) const;
 
   /// K + 4G/3
   template <class T, int N>
@@ -342,50 +342,50 @@ void Subloading::open_where_parted(const S& s, const Sym<T, N>& deps, Rate<S, T>
 }
 
 template <class T, int N>
-Notes<T> Subloading::hold_at_floor(State<T, N>& s) const {
-  Notes<T> notes;
-  notes.on_floor = s.p_c <= T(floor_ * (1.0 + 1e-9));
-  notes.sound = s.p_c > T(0.0);
-  if (!any(notes.on_floor)) return notes;  // as nearly all
-  const T scale = select(notes.on_floor, T(floor_) / s.p_c, T(1.0));
-  s.p_c = select(notes.on_floor, T(floor_), s.p_c);
+UpdateFlags<T> Subloading::hold_at_floor(State<T, N>& s) const {
+  UpdateFlags<T> flags;
+  flags.on_floor = s.p_c <= T(floor_ * (1.0 + 1e-9));
+  flags.sound = s.p_c > T(0.0);
+  if (!any(flags.on_floor)) return flags;  // as nearly all
+  const T scale = select(flags.on_floor, T(floor_) / s.p_c, T(1.0));
+  s.p_c = select(flags.on_floor, T(floor_), s.p_c);
   s.a = scale * s.a;
-  return notes;
+  return flags;
 }
 
 template <class T, int N>
-void Subloading::part_where_torn(State<T, N>& s, const Mask<T>& exists, Notes<T>& notes) const {
+void Subloading::part_where_torn(State<T, N>& s, const Mask<T>& exists, UpdateFlags<T>& flags) const {
   const T p = mean(s.sigma);
-  notes.separated = (p <= T(0.0)) && (notes.on_floor || (p + T(c_.p_e) <= T(0.01 * c_.p_e)));
-  notes.sound = notes.sound && (notes.separated || (exists && (p + T(c_.p_e) > T(0.0))));
-  if (!any(notes.separated || (abs(s.gap) > T(0.0)))) return;
+  flags.separated = (p <= T(0.0)) && (flags.on_floor || (p + T(c_.p_e) <= T(0.01 * c_.p_e)));
+  flags.sound = flags.sound && (flags.separated || (exists && (p + T(c_.p_e) > T(0.0))));
+  if (!any(flags.separated || (abs(s.gap) > T(0.0)))) return;
   // The elastic strain of the tension that goes, eq. 26: dp = (p + p_e) dε_v/κ̄.
   const T left = max(p + T(c_.p_e), T(1e-6 * c_.p_e)) * T(c_.p_e > 0.0 ? 1.0 / c_.p_e : 0.0);
-  const Mask<T> torn = notes.separated && (p < T(0.0)) && (left > T(0.0));
+  const Mask<T> torn = flags.separated && (p < T(0.0)) && (left > T(0.0));
   s.gap = select(torn, s.gap - T(c_.kappa) * log(select(torn, left, T(1.0))), s.gap);
   for (int i = 0; i < N; ++i) {
-    s.sigma[i] = select(notes.separated, T(0.0), s.sigma[i]);
-    s.a[i] = select(notes.separated, T(0.0), s.a[i]);
+    s.sigma[i] = select(flags.separated, T(0.0), s.sigma[i]);
+    s.a[i] = select(flags.separated, T(0.0), s.a[i]);
   }
   // A rate that closed the gap and went on: the rest compresses the point.
   const Mask<T> beyond = s.gap < T(0.0);
   const T pressure = T(c_.p_e) * (exp(-s.gap * T(per_kappa_)) - T(1.0));
   for (int i = 0; i < 3; ++i) s.sigma[i] = select(beyond, pressure, s.sigma[i]);
-  notes.separated = (notes.separated && !beyond) || (s.gap > T(0.0));
+  flags.separated = (flags.separated && !beyond) || (s.gap > T(0.0));
   s.gap = max(s.gap, T(0.0));
 }
 
 template <class T, int N>
-Notes<T> Subloading::accept(State<T, N>& s, double tolerance) const {
-  Notes<T> notes = hold_at_floor(s);
+UpdateFlags<T> Subloading::accept(State<T, N>& s, double tolerance) const {
+  UpdateFlags<T> flags = hold_at_floor(s);
   const auto h = homothety(s);
-  notes.corrected = h.R > T(1.0 + tolerance);
-  if (any(notes.corrected)) {
+  flags.corrected = h.R > T(1.0 + tolerance);
+  if (any(flags.corrected)) {
     const Sym<T, N> on_surface = s.a + (T(1.0) / h.R) * (s.sigma - s.a);
-    for (int i = 0; i < N; ++i) s.sigma[i] = select(notes.corrected, on_surface[i], s.sigma[i]);
+    for (int i = 0; i < N; ++i) s.sigma[i] = select(flags.corrected, on_surface[i], s.sigma[i]);
   }
-  part_where_torn(s, h.exists, notes);
-  return notes;
+  part_where_torn(s, h.exists, flags);
+  return flags;
 }
 
 }  // namespace scarp

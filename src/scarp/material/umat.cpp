@@ -206,7 +206,7 @@ Trial<Umat::State<double, N>, double> Umat::update(const State<double, N>& s, co
         "DFGRD0 and DFGRD1{} are NaN: scarp does not pass them)",
         title(), fault.text(), std::isnan(parameters_->celent) ? ", and CELENT without the key celent," : ""));
   }
-  trial.notes = {false, false, false, fault.kind == Fault::Kind::none};
+  trial.flags = {false, false, false, fault.kind == Fault::Kind::none};
   return trial;
 }
 

@@ -134,14 +134,14 @@ class Umat {
       const auto trial = update(one, part, tolerance);
       row = 0;
       for_each_component([&](const double& x) { table[row++][lane] = x; }, trial.state);
-      sound[lane] = trial.notes.sound ? 1.0 : 0.0;
+      sound[lane] = trial.flags.sound ? 1.0 : 0.0;
     }
     Trial<State<Batch, N>, Batch> trial;
     row = 0;
     for_each_component([&](Batch& x) { x = Batch::load_unaligned(table[row++].data()); }, trial.state);
     trial.error = Batch(0.0);
     const Mask<Batch> none = Batch(0.0) != Batch(0.0);
-    trial.notes = {none, none, none, Batch::load_unaligned(sound.data()) > Batch(0.5)};
+    trial.flags = {none, none, none, Batch::load_unaligned(sound.data()) > Batch(0.5)};
     return trial;
   }
 
@@ -156,7 +156,7 @@ class Umat {
   }
 
   template <class T, int N>
-  Notes<T> accept(State<T, N>& s, double) const {
+  UpdateFlags<T> accept(State<T, N>& s, double) const {
     const Mask<T> nan = s.sigma[0] != s.sigma[0], none = T(0.0) != T(0.0);
     return {none, none, none, !nan};
   }

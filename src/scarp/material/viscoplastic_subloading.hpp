@@ -86,7 +86,7 @@ class ViscoplasticSubloading {
   }
 
   template <class T, int N>
-  Notes<T> accept(State<T, N>& s, double tolerance) const;
+  UpdateFlags<T> accept(State<T, N>& s, double tolerance) const;
 
   /// K + 4G/3
   template <class T, int N>
@@ -136,16 +136,16 @@ Rate<ViscoplasticSubloading::State<T, N>, T> ViscoplasticSubloading::rate(const 
 
 /// Stress above the yield surface is the law's own here; it is inadmissible from R_m on.
 template <class T, int N>
-Notes<T> ViscoplasticSubloading::accept(State<T, N>& s, double) const {
-  Notes<T> notes = law_.hold_at_floor(s);
-  notes.corrected = T(0.0) != T(0.0);
+UpdateFlags<T> ViscoplasticSubloading::accept(State<T, N>& s, double) const {
+  UpdateFlags<T> flags = law_.hold_at_floor(s);
+  flags.corrected = T(0.0) != T(0.0);
   const auto h = law_.homothety(s);
-  law_.part_where_torn(s, h.exists, notes);
-  notes.sound = notes.sound && (notes.separated || (h.R < T(c_.R_m)));
+  law_.part_where_torn(s, h.exists, flags);
+  flags.sound = flags.sound && (flags.separated || (h.R < T(c_.R_m)));
   // R_min ≤ R_s ≤ R; R is 0 where stress and centre have become zero.
-  const T R = select(notes.separated, T(0.0), h.R);
+  const T R = select(flags.separated, T(0.0), h.R);
   s.overstress = max(T(0.0), min(s.overstress, R - T(law_.parameters().R_min)));
-  return notes;
+  return flags;
 }
 
 }  // namespace scarp

@@ -24,7 +24,7 @@ void expect_closed_as_before(const Model& model, int increments) {
     for (int i = 0; i < increments; ++i) {
       const auto report = integrate<ModifiedEuler>(model, s, isotropic<double, 6>(sign * 0.01 / increments), sharp);
       ASSERT_EQ(report.end, IntegrationEnd::done);
-      EXPECT_EQ(report.notes.separated, s.gap > 0);
+      EXPECT_EQ(report.flags.separated, s.gap > 0);
     }
     EXPECT_NEAR(s.gap, sign < 0 ? 0.03 - elastic : 0, 1e-15);
     EXPECT_EQ(s.gap > 0 ? norm(s.sigma) : 0, 0);
@@ -98,8 +98,8 @@ void expect_honest(const Model& model) {
     s.gap = i % 5 ? 1e-3 * (i % 7 + 1) : 1e-15;
     const auto deps = random_tensor<6>(generator, 2e-3) + isotropic<double, 6>(i % 3 ? 1e-3 : -1e-3);
     const auto once = attempt<ModifiedEuler>(model, s, deps, 1e-4);
-    ASSERT_TRUE(once.notes.sound);
-    EXPECT_EQ(once.notes.separated, once.state.gap > 0);
+    ASSERT_TRUE(once.flags.sound);
+    EXPECT_EQ(once.flags.separated, once.state.gap > 0);
     auto slow = s;
     for (int k = 0; k < 500; ++k) slow = attempt<ModifiedEuler>(model, slow, (1.0 / 500) * deps, 1e-4).state;
     const double error = model.error_norm(slow, advanced(once.state, -1.0, slow));
@@ -183,7 +183,7 @@ TEST(Gap, AnOpenPointRests) {
     auto s = start(model, 0);
     s.gap = 0.01;
     const auto trial = attempt<ModifiedEuler>(model, s, Sym<double, 6>::zero(), 1e-4);
-    EXPECT_TRUE(trial.notes.separated && trial.notes.sound);
+    EXPECT_TRUE(trial.flags.separated && trial.flags.sound);
     EXPECT_EQ(trial.state.gap, 0.01);
     auto same = s;
     EXPECT_TRUE(model.accept(same, 1e-4).separated);
@@ -218,8 +218,8 @@ void expect_batch_is_double(const Constants& constants) {
       EXPECT_NEAR(lane(all.state.kappa, l), one.state.kappa, 1e-15);
       EXPECT_NEAR(lane(all.state.gap, l), one.state.gap, 1e-15);
       EXPECT_NEAR(lane(all.error, l), one.error, 1e-10 * one.error + 1e-12);
-      EXPECT_EQ(all.notes.separated.get(l), one.notes.separated);
-      EXPECT_EQ(all.notes.sound.get(l), one.notes.sound);
+      EXPECT_EQ(all.flags.separated.get(l), one.flags.separated);
+      EXPECT_EQ(all.flags.sound.get(l), one.flags.sound);
     }
   }
 }
@@ -254,7 +254,7 @@ void expect_volume_is_kept(const Model& model, const std::map<std::string, doubl
     const auto report = integrate<DormandPrince>(model, s, Increment<double, 6>{deps, 1.0}, {1e-8, 1e-9});
     ASSERT_EQ(report.end, IntegrationEnd::done) << i;
     eps = eps + deps;
-    EXPECT_EQ(report.notes.separated && s.gap > 0, s.gap > 0);
+    EXPECT_EQ(report.flags.separated && s.gap > 0, s.gap > 0);
     EXPECT_EQ(s.gap > 0 ? norm(s.sigma) + norm(s.a) : 0, 0);
     open += !before && s.gap > 0;
     closed += before && s.gap == 0;

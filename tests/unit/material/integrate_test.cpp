@@ -39,7 +39,7 @@ struct Growth {
     return norm(e.sigma) / norm(s.sigma);
   }
   template <class T, int N>
-  Notes<T> accept(State<T, N>& s, double) const {
+  UpdateFlags<T> accept(State<T, N>& s, double) const {
     return {false, false, false, s.sigma[0] <= T(limit)};
   }
 };

@@ -64,7 +64,7 @@ void expect_lanes_are_integrate(int count) {
     EXPECT_EQ(ends[i].report.substeps, report.substeps);
     EXPECT_EQ(ends[i].report.rejected, report.rejected);
     EXPECT_NEAR(ends[i].report.reached, report.reached, 1e-9);
-    EXPECT_EQ(ends[i].report.notes.sound, report.notes.sound);
+    EXPECT_EQ(ends[i].report.flags.sound, report.flags.sound);
     // 1e-15 in the error estimate moves every substep by as much, and rounding grows where the soil softens.
     EXPECT_LT(norm(ends[i].state.sigma - s.sigma), 1e-9 * norm(s.sigma)) << i;
     EXPECT_NEAR(ends[i].state.p_c, s.p_c, 1e-9 * s.p_c);

@@ -35,7 +35,7 @@ void expect_honest_error(const Model& model) {
   int optimistic = 0, all = 0;
   random_steps(model, 1e-3, false, [&](const State6<Model>& s, const Sym<double, 6>& deps) {
     const auto trial = attempt<ModifiedEuler>(model, s, deps, 1e-4);
-    ASSERT_TRUE(trial.notes.sound);
+    ASSERT_TRUE(trial.flags.sound);
     State6<Model> slow = s;
     for (int k = 0; k < 2000; ++k) slow = attempt<ModifiedEuler>(model, slow, (1.0 / 2000) * deps, 1e-4).state;
     const double error = model.error_norm(slow, advanced(trial.state, -1.0, slow));

@@ -182,10 +182,10 @@ TEST(PlasticLaws, SeparationAndCutoff) {
   const auto dry = law<MohrCoulomb>(sand, {{"c", 0}});
   auto s = start(dry, 1);
   const auto apart = attempt<ModifiedEuler>(dry, s, isotropic<double, 6>(-1e-3), 1e-4);
-  EXPECT_TRUE(apart.notes.separated && apart.notes.sound);
+  EXPECT_TRUE(apart.flags.separated && apart.flags.sound);
   EXPECT_NEAR(norm(apart.state.sigma), 0, 1e-12);
   const auto back = attempt<ModifiedEuler>(dry, apart.state, isotropic<double, 6>(1e-3), 1e-4);
-  EXPECT_FALSE(back.notes.separated);
+  EXPECT_FALSE(back.flags.separated);
   EXPECT_NEAR(mean(back.state.sigma), 1, 1e-11);  // as far as before: what opened has closed
   const auto cut = law<MohrCoulomb>(sand, {{"tension", 2}});
   auto pulled = start(cut, 10);
@@ -193,7 +193,7 @@ TEST(PlasticLaws, SeparationAndCutoff) {
     integrate<ModifiedEuler>(cut, pulled, Sym<double, 6>{{-1e-4, 0, 0, 0, 0, 0}}, sharp);
   }
   EXPECT_NEAR(pulled.sigma[0], -2, 1e-9);
-  EXPECT_FALSE(attempt<ModifiedEuler>(cut, pulled, isotropic<double, 6>(-1e-2), 1e-4).notes.separated);
+  EXPECT_FALSE(attempt<ModifiedEuler>(cut, pulled, isotropic<double, 6>(-1e-2), 1e-4).flags.separated);
 }
 
 /// Key of the first problem, "" where there is none.

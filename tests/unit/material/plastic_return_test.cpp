@@ -209,8 +209,8 @@ void expect_batch_is_double(const Constants& constants) {
       EXPECT_LT(norm(lane(all.state.epsp, l) - one.state.epsp), 1e-14);
       EXPECT_NEAR(lane(all.state.kappa, l), one.state.kappa, 1e-14);
       EXPECT_NEAR(lane(all.error, l), one.error, 1e-12);  // a difference of two answers, each rounded
-      EXPECT_EQ(all.notes.sound.get(l), one.notes.sound);
-      EXPECT_EQ(all.notes.separated.get(l), one.notes.separated);
+      EXPECT_EQ(all.flags.sound.get(l), one.flags.sound);
+      EXPECT_EQ(all.flags.separated.get(l), one.flags.separated);
     }
   }
 }

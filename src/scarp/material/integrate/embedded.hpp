@@ -84,8 +84,8 @@ inline auto attempt_pair(const Model& model, const State& s, const Step& step, d
   } else {
     Trial<State, T> trial{combined<T>(s, Pair::b, k...), T(0.0), {}};
     trial.error = model.error_norm(trial.state, error_of<Pair, T>(k...));
-    trial.notes = model.accept(trial.state, tolerance);
-    trial.notes.sound = (trial.notes.sound && ... && k.sound);
+    trial.flags = model.accept(trial.state, tolerance);
+    trial.flags.sound = (trial.flags.sound && ... && k.sound);
     return trial;
   }
 }
@@ -122,7 +122,7 @@ struct IntegrationReport {
   int rejected = 0;
   double reached = 0;  ///< share of the increment that was integrated; 1 when done
   IntegrationEnd end = IntegrationEnd::done;
-  Notes<double> notes{};
+  UpdateFlags<double> flags{};
 };
 
 /// A law has kinks: where plastic strain sets in, where a direction turns round. A substep of high order across one has
@@ -157,8 +157,8 @@ Whole confirmed(const Model& model, const State& s, const Step& part, double tol
   State difference = both.state;
   for_each_component([](double& x, const double& y) { x -= y; }, difference, whole.state);
   both.error = model.error_norm(both.state, difference);
-  both.notes.sound = both.notes.sound && first.notes.sound;
-  both.notes.corrected = both.notes.corrected || first.notes.corrected;
+  both.flags.sound = both.flags.sound && first.flags.sound;
+  both.flags.corrected = both.flags.corrected || first.flags.corrected;
   return both;
 }
 
@@ -168,7 +168,7 @@ IntegrationEnd failure(const Model& model, const State& state, const Step& part,
   if (!model.admissible(state)) return IntegrationEnd::inadmissible;
   bool solvable;
   if constexpr (requires { updated(model, state, part, tolerance); }) {
-    solvable = updated(model, state, part, tolerance).notes.sound;
+    solvable = updated(model, state, part, tolerance).flags.sound;
   } else {
     solvable = rate_of(model, state, part).sound;
   }
@@ -206,21 +206,21 @@ class StepControl {
   }
 
   /// Is the trial good? A NaN error is not.
-  bool judge(double error, const Notes<double>& notes, double tolerance, double order) {
-    const bool good = notes.sound && error <= tolerance;
+  bool judge(double error, const UpdateFlags<double>& flags, double tolerance, double order) {
+    const bool good = flags.sound && error <= tolerance;
     const double ratio = tolerance / std::max(error, 1e-16 * tolerance);
     const double power = order == 2 ? std::sqrt(ratio) : std::pow(ratio, 1.0 / order);
     const double factor = std::isfinite(error) ? 0.9 * power : 0.1;
     if (good) {
-      const bool corrected = report.notes.corrected || notes.corrected;
-      report.notes = notes;
-      report.notes.corrected = corrected;
+      const bool corrected = report.flags.corrected || flags.corrected;
+      report.flags = flags;
+      report.flags.corrected = corrected;
       ++report.substeps;
       t_ = (step_ == 1.0 - t_) ? 1.0 : t_ + step_;
       step_ *= std::clamp(factor, 0.2, rejected_ ? 1.0 : 5.0);
     } else {
       ++report.rejected;
-      step_ *= notes.sound ? std::clamp(factor, 0.1, 0.9) : 0.25;
+      step_ *= flags.sound ? std::clamp(factor, 0.1, 0.9) : 0.25;
     }
     rejected_ = !good;
     report.reached = t_;
@@ -244,7 +244,7 @@ IntegrationReport integrate(const Model& model, State& state, const Step& increm
     report.reached = 1;
     report.substeps = 1;
     State same = state;  // a point to which nothing happens keeps its state to the last bit
-    report.notes = model.accept(same, settings.tolerance);
+    report.flags = model.accept(same, settings.tolerance);
     return report;
   }
   constexpr double order = error_order<Pair, Model, State, std::decay_t<decltype(whole)>>();
@@ -255,12 +255,12 @@ IntegrationReport integrate(const Model& model, State& state, const Step& increm
     const auto part = step * whole;
     auto trial = attempt<Pair>(model, state, part, settings.tolerance);
     const double estimate = trial.error;
-    const bool seems_good = trial.notes.sound && estimate <= settings.tolerance;
+    const bool seems_good = trial.flags.sound && estimate <= settings.tolerance;
     const bool doubted = Pair::doubts && seems_good && doubt.about(estimate, step);
     if (doubted) trial = confirmed<Pair>(model, state, part, settings.tolerance, trial);
     // What a doubted substep misses is the kink's: of first order.
     const double judged = doubted && !(trial.error <= settings.tolerance) ? 1 : order;
-    if (control.judge(trial.error, trial.notes, settings.tolerance, judged)) {
+    if (control.judge(trial.error, trial.flags, settings.tolerance, judged)) {
       state = trial.state;
       control.report.substeps += doubted;  // both halves count
       doubt.accepted(estimate, step);

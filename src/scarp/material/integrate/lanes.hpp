@@ -56,8 +56,8 @@ class TaskLanes {
 };
 
 /// The notes of one lane.
-inline Notes<double> lane_of(const Notes<Batch>& notes, std::size_t lane) {
-  return {notes.corrected.get(lane), notes.on_floor.get(lane), notes.separated.get(lane), notes.sound.get(lane)};
+inline UpdateFlags<double> lane_of(const UpdateFlags<Batch>& flags, std::size_t lane) {
+  return {flags.corrected.get(lane), flags.on_floor.get(lane), flags.separated.get(lane), flags.sound.get(lane)};
 }
 
 /// integrate() for `count` tasks, task(i) each; done(i, end state, report) in the order in which they end. A lane that
@@ -95,11 +95,11 @@ void integrate_lanes(const Model& model, int count, GetTask&& task, Done&& done,
     for (std::size_t l = 0; l < batch_lanes; ++l) share[l] = who[l] < 0 ? 0.0 : control[l].next();
     const auto part = Batch::load_unaligned(share.data()) * lanes.whole;
     const auto trial = attempt<Pair>(model, lanes.state, part, settings.tolerance);
-    const auto good = trial.notes.sound && (trial.error <= Batch(settings.tolerance));
+    const auto good = trial.flags.sound && (trial.error <= Batch(settings.tolerance));
     lanes.state = select_state(good, trial.state, lanes.state);
     for (std::size_t l = 0; l < batch_lanes; ++l) {
       if (who[l] < 0) continue;
-      control[l].judge(trial.error.get(l), lane_of(trial.notes, l), settings.tolerance, order);
+      control[l].judge(trial.error.get(l), lane_of(trial.flags, l), settings.tolerance, order);
       const bool stuck = control[l].stuck(settings);
       if (!control[l].finished() && !stuck) continue;
       const auto end = lanes.get(l);
