@@ -215,7 +215,7 @@ TEST(Reweighted, CountsTheElementsAroundThoseThatFillOrEmpty) {
 TEST(Reweighted, NoneOfTheSumOverPointsAsPrinted) {
   auto body = column(0);
   StepSettings settings;
-  settings.quadrature = Quadrature::points;
+  settings.quadrature = QuadratureRule::points;
   std::int64_t changed = 0;
   for (int s = 0; s < 200; ++s) {
     const auto books = advance(body, 2e-3, settings);

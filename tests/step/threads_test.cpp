@@ -37,7 +37,7 @@ std::vector<std::uint64_t> run(int threads, Mesh<Dim> mesh, const AnyModel& mode
   auto body = soil<Dim>(std::move(mesh), model, along, speed, length);
   const double dt = 0.3 * critical_time_step(body);
   const StepSettings settings{
-      .scheme = scheme, .damping = 0.05, .quadrature = Quadrature::corrected, .integration = {1e-4, 1e-5}};
+      .scheme = scheme, .damping = 0.05, .quadrature = QuadratureRule::corrected, .integration = {1e-4, 1e-5}};
   StepBooks<Dim> books;
   std::int64_t changed = 0;
   for (int s = 0; s < steps; ++s) {

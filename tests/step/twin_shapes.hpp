@@ -62,7 +62,7 @@ class TwinShapes {
       });
     }
     for (auto& at : at_) at.B_own = at.B;
-    if (settings.quadrature != Quadrature::corrected) return;
+    if (settings.quadrature != QuadratureRule::corrected) return;
     const bool gimp = mesh.grid && mesh.grid->functions == GridFunctions::gimp;
     std::vector<int> simplices;
     for (int e = 0; e < mesh.element_count(); ++e) {

@@ -82,7 +82,7 @@ void run_both(Mesh<Dim> mesh, const AnyModel& model, int along, int steps, const
 
 const StepSettings plain{.integration = {1e-4, 1e-5}}, all_on{.scheme = report_scheme(0.98),
                                                               .damping = 0.1,
-                                                              .quadrature = Quadrature::corrected,
+                                                              .quadrature = QuadratureRule::corrected,
                                                               .integration = {1e-4, 1e-5}};
 
 /// The report's with walls that meet the motion.
@@ -115,7 +115,7 @@ TEST_P(InThePlane, LinearElasticOnAWallByMotion) {
 }
 TEST_P(InThePlane, SumOverPointsAsPrinted) {
   run_both<LinearElastic, 2>(plane_mesh(GetParam(), 10), elastic(), 13, 200,
-                             {.quadrature = Quadrature::points, .integration = {1e-4, 1e-5}});
+                             {.quadrature = QuadratureRule::points, .integration = {1e-4, 1e-5}});
 }
 TEST_P(InThePlane, Subloading) {
   run_both<Subloading, 2>(plane_mesh(GetParam(), 10), subloading(), 13, 300, all_on, 0.5);
@@ -127,7 +127,7 @@ TEST_P(InThePlane, BodyOfRevolution) {
 TEST_P(InThePlane, BodyOfRevolutionAsPrinted) {
   if (GetParam() == Background::gimp) GTEST_SKIP() << "points that are boxes are no rings";
   run_both<LinearElastic, 2>(revolved(plane_mesh(GetParam(), 10)), elastic(), 13, 100,
-                             {.quadrature = Quadrature::points, .integration = {1e-4, 1e-5}});
+                             {.quadrature = QuadratureRule::points, .integration = {1e-4, 1e-5}});
 }
 TEST_P(InThePlane, BodyOfRevolutionOfSubloadingSoil) {
   if (GetParam() == Background::gimp) GTEST_SKIP() << "points that are boxes are no rings";

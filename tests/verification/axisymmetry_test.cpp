@@ -70,7 +70,7 @@ TEST(BodyOfRevolution, RadialExpansionStrainsTheCircumferenceAsMuch) {
 /// A long cylinder of uniform stress moving along its axis through four elements; the largest change of a stress over
 /// σ_0 among points that no wave from its ends has reached (see patch_test.cpp). Points a quarter out of step in r,
 /// too.
-double stress_noise(Quadrature quadrature) {
+double stress_noise(QuadratureRule quadrature) {
   constexpr double v = 5, length = 60, sigma_0 = -1;
   auto body = cylinder(4, length, {4, 80}, {4, 80}, {10, 150}, LinearElastic({100, 0.0}), 1, 0);
   body.conditions = Conditions<2>(body.mesh->node_count());
@@ -98,7 +98,7 @@ TEST(BodyOfRevolution, CorrectedQuadratureCarriesUniformStressAcrossElements) {
   // Oracle: ∂σ_rr/∂r + (σ_rr − σ_θθ)/r = 0 for a uniform stress with σ_rr = σ_θθ: no internal force inside, wherever
   // the points are, so nothing changes but for what runs ahead of the waves from the ends (1e-7 in the plane). But the
   // elements at the axis and at the rim lie on the mesh's edge with full neighbours, so they are corrected, too.
-  const double corrected = stress_noise(Quadrature::corrected), printed = stress_noise(Quadrature::points);
+  const double corrected = stress_noise(QuadratureRule::corrected), printed = stress_noise(QuadratureRule::points);
   EXPECT_LT(corrected, 1e-6);
   EXPECT_GT(printed, 1e-2);  // eq. 4 with 2.5 points to an element
   std::printf("body of revolution, crossing noise over 4 elements: %.2e corrected, %.2e as printed\n", corrected,

@@ -24,7 +24,7 @@ struct BarResult {
 
 /// Oracle: first mode of a fixed–free bar, v = v0 sin(πx/2L) cos(ω t), ω = (π/2L) √(E/ρ); centre of mass velocity
 /// (2 v0/π) cos ω t; kinetic energy at the start ρ v0² L/4. L = 25, E = 100, ρ = 1, two points per element.
-BarResult vibrate(double v0, int elements, Quadrature quadrature, GridFunctions functions = GridFunctions::linear,
+BarResult vibrate(double v0, int elements, QuadratureRule quadrature, GridFunctions functions = GridFunctions::linear,
                   double points_per_element = 2) {
   constexpr double L = 25, E = 100;
   const double omega = pi / (2 * L) * std::sqrt(E), end = 2 * 2 * pi / omega, h = L / elements;
@@ -52,9 +52,9 @@ BarResult vibrate(double v0, int elements, Quadrature quadrature, GridFunctions 
   return result;
 }
 
-class VibratingBar : public testing::TestWithParam<Quadrature> {
+class VibratingBar : public testing::TestWithParam<QuadratureRule> {
  protected:
-  const char* name() const { return GetParam() == Quadrature::points ? "points" : "corrected"; }
+  const char* name() const { return GetParam() == QuadratureRule::points ? "points" : "corrected"; }
 };
 
 TEST_P(VibratingBar, CentreOfMassFollowsTheFirstMode) {
@@ -84,17 +84,17 @@ TEST_P(VibratingBar, ConvergesWithMeshAndTimeStep) {
   std::printf("vibrating bar (%s): errors %.2e, %.2e, %.2e at 25, 50, 100 elements\n", name(), coarse, middle, fine);
 }
 
-INSTANTIATE_TEST_SUITE_P(Quadratures, VibratingBar, testing::Values(Quadrature::points, Quadrature::corrected),
-                         [](const auto& its) { return its.param == Quadrature::points ? "points" : "corrected"; });
+INSTANTIATE_TEST_SUITE_P(Quadratures, VibratingBar, testing::Values(QuadratureRule::points, QuadratureRule::corrected),
+                         [](const auto& its) { return its.param == QuadratureRule::points ? "points" : "corrected"; });
 
 /// Where points do not keep step with the mesh, 2.4 to an element, the corrected quadrature leaves B-splines as near to
 /// the exact solution as two to an element do (1.7e-2 and 5.7e-3 at 25 and 50 elements), and of the same order.
 TEST(VibratingBarWithBSplines, ConvergesWithAnyNumberOfPoints) {
-  const auto error = [](int elements, double points_per_element, Quadrature quadrature) {
+  const auto error = [](int elements, double points_per_element, QuadratureRule quadrature) {
     return vibrate(1e-4, elements, quadrature, GridFunctions::b_spline, points_per_element).velocity_error;
   };
-  const double even = error(50, 2, Quadrature::corrected), coarse = error(25, 2.4, Quadrature::corrected),
-               fine = error(50, 2.4, Quadrature::corrected), as_printed = error(50, 2.4, Quadrature::points);
+  const double even = error(50, 2, QuadratureRule::corrected), coarse = error(25, 2.4, QuadratureRule::corrected),
+               fine = error(50, 2.4, QuadratureRule::corrected), as_printed = error(50, 2.4, QuadratureRule::points);
   EXPECT_GT(std::log2(coarse / fine), 1.2);  // as with linear functions: see above
   EXPECT_NEAR(fine, even, 0.1 * even);
   EXPECT_GT(as_printed, 1.5 * fine);
@@ -105,7 +105,7 @@ TEST(VibratingBarWithBSplines, ConvergesWithAnyNumberOfPoints) {
 
 TEST(VibratingBarWithGimp, ConvergesWithMeshAndTimeStep) {
   const auto error = [](int elements) {
-    return vibrate(1e-4, elements, Quadrature::corrected, GridFunctions::gimp).velocity_error;
+    return vibrate(1e-4, elements, QuadratureRule::corrected, GridFunctions::gimp).velocity_error;
   };
   EXPECT_GT(std::log2(error(25) / error(50)), 1.2);
 }

@@ -140,7 +140,7 @@ Moments moments_of(const Body<2>& body) {
 
 TEST_P(Discs, TurningDiscLosesWhatMassOffItsNodesTakes) {
   // The dL above, step by step to round-off, with eq. 4 as printed; and the forces themselves have no moment.
-  const Method method{GetParam(), Quadrature::points};
+  const Method method{GetParam(), QuadratureRule::points};
   auto body = turning_disc(12, method);
   double taken = 0, moment = 0;
   const double dt = 0.3 * critical_time_step(body);
@@ -197,7 +197,7 @@ TEST_P(Discs, TurningDiscSwellsByTheSquareOfItsTurnInEachStep) {
   // Points move on tangents (rotation_test.cpp): volumes grow by det(I + L dt), the law strains by D dt alone. With L =
   // D + W, W a turn by w, ln det(I + L dt) − tr D dt = w² − ½ D:D dt² and terms of third order: an error of first order
   // in dt, (Ω dt)² in each step of a body that turns as one.
-  const Method method{GetParam(), Quadrature::points};
+  const Method method{GetParam(), QuadratureRule::points};
   const auto coarse = swelling(method, 0.4), fine = swelling(method, 0.2);
   EXPECT_NEAR(coarse.found / coarse.rigid, fine.found / fine.rigid, 0.02);  // Ω dt is 0.008 and 0.004 or less
   // Nodes at the edge have their mass on one side and turn by less, and D:D takes some: a quarter is room for the

@@ -84,7 +84,7 @@ TEST(Manufactured, SplinesAtSmallStrain) {
   // a field to their centroids, not to the places that their values stand for; eqs 7 and 8 do so twice, and the order
   // of the stress falls to 1.6 as the error there comes to dominate. (Found with a plain one-dimensional step, too;
   // there it stays 2.0 where strains follow from v^t + a dt instead of eq. 8, and with a consistent mass.)
-  for (const auto quadrature : {Quadrature::corrected, Quadrature::points}) {
+  for (const auto quadrature : {QuadratureRule::corrected, QuadratureRule::points}) {
     const auto errors = refine(2e-4, 12, 2, {GridFunctions::b_spline, quadrature});
     for (const double order : orders(errors.displacement)) EXPECT_GT(order, 1.9);
     for (const double order : orders(errors.stress)) EXPECT_GT(order, 1.5);

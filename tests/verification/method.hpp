@@ -46,7 +46,7 @@ inline std::vector<NamedScheme> all_schemes() {
 /// Shape functions and the settings of the step.
 struct Method {
   GridFunctions shape = GridFunctions::linear;
-  Quadrature quadrature = Quadrature::corrected;
+  QuadratureRule quadrature = QuadratureRule::corrected;
   Scheme scheme = report_scheme();
   double damping = 0;
 
@@ -57,15 +57,17 @@ struct Method {
     s.damping = damping;
     return s;
   }
-  std::string name() const { return name_of(shape) + (quadrature == Quadrature::points ? ", points" : ", corrected"); }
+  std::string name() const {
+    return name_of(shape) + (quadrature == QuadratureRule::points ? ", points" : ", corrected");
+  }
 };
 
 /// Every shape function with every quadrature that makes a difference: GIMP has eq. 4 as printed only.
 inline std::vector<Method> all_methods() {
   std::vector<Method> methods;
   for (const auto shape : all_shapes) {
-    if (shape != GridFunctions::gimp) methods.push_back({shape, Quadrature::corrected});
-    methods.push_back({shape, Quadrature::points});
+    if (shape != GridFunctions::gimp) methods.push_back({shape, QuadratureRule::corrected});
+    methods.push_back({shape, QuadratureRule::points});
   }
   return methods;
 }

@@ -22,7 +22,7 @@ struct Bar {
 
 /// A long bar of uniform stress between smooth walls, moving along itself through `cells` elements; returns the largest
 /// change of σ_xx over |σ_0| among points that no wave from the free ends has reached.
-double stress_noise(double cells, double points_per_cell, Quadrature quadrature, const Bar& its = {}) {
+double stress_noise(double cells, double points_per_cell, QuadratureRule quadrature, const Bar& its = {}) {
   constexpr double E = 100, v = 5;  // wave speed 10, elements of 1
   const double length = its.length;
   auto body = on_grid({0, 0}, {length + 20, 2}, {its.length + 20, 2}, {0, 0}, its.functions);
@@ -50,15 +50,15 @@ double stress_noise(double cells, double points_per_cell, Quadrature quadrature,
 
 TEST(Patch, UniformStressStaysUniformWithinElements) {
   // Oracle: a uniform stress has no internal force at inner nodes, so nothing changes; round-off of 10² steps.
-  EXPECT_LT(stress_noise(0.2, 2, Quadrature::points), 1e-12);
-  EXPECT_LT(stress_noise(0.2, 2, Quadrature::corrected), 1e-12);
+  EXPECT_LT(stress_noise(0.2, 2, QuadratureRule::points), 1e-12);
+  EXPECT_LT(stress_noise(0.2, 2, QuadratureRule::corrected), 1e-12);
 }
 
 TEST(Patch, UniformStressAcrossElementsHasTheKnownCrossingNoise) {
   // Linear shape functions: a node feels σ (Ω_left − Ω_right)/h of the soil in the elements beside it. With two points
   // per element all cross together and the sums stay equal; with two and a half the number alternates between 2 and 3,
   // and the force at a node jumps by σ/2.5. Reported, and bounded by the stress itself.
-  const double even = stress_noise(4, 2, Quadrature::points), uneven = stress_noise(4, 2.5, Quadrature::points);
+  const double even = stress_noise(4, 2, QuadratureRule::points), uneven = stress_noise(4, 2.5, QuadratureRule::points);
   EXPECT_LT(even, 1e-6);
   EXPECT_LT(uneven, 1.0);
   EXPECT_GT(uneven, 1e-3);  // if it vanished, the shape functions would not be linear
@@ -69,7 +69,7 @@ TEST(Patch, CorrectedQuadratureCarriesUniformStressAcrossElementsWithAnyNumberOf
   // Oracle: uniform stress has no internal force at nodes inside, wherever the points are. What is left comes from the
   // free ends, ahead of the waves (1e-7); eq. 4 as printed leaves 0.1 with two and a half points per element.
   for (const double points_per_cell : {2.0, 2.5, 3.3}) {
-    const double noise = stress_noise(4, points_per_cell, Quadrature::corrected);
+    const double noise = stress_noise(4, points_per_cell, QuadratureRule::corrected);
     EXPECT_LT(noise, 1e-6) << points_per_cell;
     std::printf("corrected quadrature, crossing noise over 4 elements: %.2e (%g points per element)\n", noise,
                 points_per_cell);
@@ -78,20 +78,20 @@ TEST(Patch, CorrectedQuadratureCarriesUniformStressAcrossElementsWithAnyNumberOf
 
 /// A bar long enough for what runs ahead of the waves to fade to nothing (a factor of some 4 per element), with points
 /// in squares, whose domains are a partition of it.
-double smooth_stress_noise(GridFunctions functions, double points_per_cell, Quadrature quadrature) {
+double smooth_stress_noise(GridFunctions functions, double points_per_cell, QuadratureRule quadrature) {
   const double noise = stress_noise(
       4, points_per_cell, quadrature,
       {.functions = functions, .length = 140, .ahead = 55, .points_across = static_cast<int>(2 * points_per_cell)});
   std::printf("%s, %s, crossing noise over 4 elements: %.2e (%g points per element)\n",
               functions == GridFunctions::gimp ? "GIMP" : "B-splines",
-              quadrature == Quadrature::points ? "points" : "corrected", noise, points_per_cell);
+              quadrature == QuadratureRule::points ? "points" : "corrected", noise, points_per_cell);
   return noise;
 }
 
 TEST(Patch, GimpCarriesUniformStressAcrossElements) {
   // Oracle: where domains are a partition of the soil, Σ Ω_p S_i' = ∫ N_i' = 0 at nodes inside. Round-off of 10³ steps.
   for (const double points_per_cell : {2.0, 2.5, 3.0, 3.5}) {
-    EXPECT_LT(smooth_stress_noise(GridFunctions::gimp, points_per_cell, Quadrature::corrected), 1e-11);
+    EXPECT_LT(smooth_stress_noise(GridFunctions::gimp, points_per_cell, QuadratureRule::corrected), 1e-11);
   }
 }
 
@@ -99,13 +99,13 @@ TEST(Patch, BSplinesCarryUniformStressAcrossElements) {
   // Oracle: a whole number of evenly spaced points per element integrates the hats that N_i' is made of exactly,
   // wherever they are; the corrected quadrature does it for any number. Round-off of 10³ steps.
   for (const double points_per_cell : {2.0, 2.5, 3.0, 3.5}) {
-    EXPECT_LT(smooth_stress_noise(GridFunctions::b_spline, points_per_cell, Quadrature::corrected), 1e-11);
+    EXPECT_LT(smooth_stress_noise(GridFunctions::b_spline, points_per_cell, QuadratureRule::corrected), 1e-11);
   }
   for (const double points_per_cell : {2.0, 3.0}) {
-    EXPECT_LT(smooth_stress_noise(GridFunctions::b_spline, points_per_cell, Quadrature::points), 1e-11);
+    EXPECT_LT(smooth_stress_noise(GridFunctions::b_spline, points_per_cell, QuadratureRule::points), 1e-11);
   }
   // Eq. 4 as printed: the hats have a part of (sin(2.5 π)/(2.5 π))² = 1.6 % at the frequency of these points.
-  const double uneven = smooth_stress_noise(GridFunctions::b_spline, 2.5, Quadrature::points);
+  const double uneven = smooth_stress_noise(GridFunctions::b_spline, 2.5, QuadratureRule::points);
   EXPECT_GT(uneven, 1e-4);
   EXPECT_LT(uneven, 0.05);
 }

@@ -42,7 +42,7 @@ TEST(SelfWeight, LinearFunctionsAtRest) {
   // In one dimension nodes are exact; the displacement between them errs by O(h²), and the stress is constant in each
   // element: its points, a quarter of an element above and below the middle, err by ρ g h/4, which is √3/4 h/H of the
   // L2 size of ρ g (H − y), exactly.
-  for (const auto quadrature : {Quadrature::corrected, Quadrature::points}) {
+  for (const auto quadrature : {QuadratureRule::corrected, QuadratureRule::points}) {
     const auto errors = rest({GridFunctions::linear, quadrature});
     for (const double order : orders(errors.displacement)) EXPECT_GT(order, 1.9);
     for (const double order : orders(errors.stress)) EXPECT_GT(order, 0.95);
@@ -57,7 +57,7 @@ TEST(SelfWeight, SplinesAtRest) {
   // and the stress errs by O(ρ g h) in the elements at both ends and by a third of that in each further one: order 1½
   // in the L2 norm, a quarter of the error with twice the points, and nothing in the middle half, eight elements from
   // the ends and more.
-  for (const auto quadrature : {Quadrature::corrected, Quadrature::points}) {
+  for (const auto quadrature : {QuadratureRule::corrected, QuadratureRule::points}) {
     const auto errors = rest({GridFunctions::b_spline, quadrature});
     for (const double order : orders(errors.displacement)) EXPECT_GT(order, 1.9);
     for (const double order : orders(errors.stress)) EXPECT_NEAR(order, 1.5, 0.1);

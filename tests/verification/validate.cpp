@@ -136,7 +136,9 @@ class Studies {
     discs_.flush();
   }
 
-  static const char* text(Quadrature quadrature) { return quadrature == Quadrature::points ? "points" : "corrected"; }
+  static const char* text(QuadratureRule quadrature) {
+    return quadrature == QuadratureRule::points ? "points" : "corrected";
+  }
 
   std::ofstream errors_, discs_;
 };

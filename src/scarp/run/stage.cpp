@@ -214,7 +214,7 @@ void run_stage(Context<Dim>& context, int index, StageRecord& record) {
   if (stage.rest) rest.emplace(*stage.rest, body);
   const StepSettings settings{scheme_of(input.method, stage.flip),
                               stage.damping,
-                              input.method.corrected_quadrature ? Quadrature::corrected : Quadrature::points,
+                              input.method.corrected_quadrature ? QuadratureRule::corrected : QuadratureRule::points,
                               {input.method.tolerance, 1e-5},
                               input.method.remove_leaving,
                               profile};

@@ -57,7 +57,7 @@ SCARP_FLATTEN bool sum_points(Body<Basis::dim>& body, const Places& places, cons
   const transfer::ShapesAtPoints<Basis> shapes(cell);
   std::optional<transfer::Means<Basis>> means;  // of an element inside the soil
   if constexpr (Basis::corrects || !std::is_same_v<Averaged, std::false_type>) {
-    if (settings.quadrature == Quadrature::corrected && buffers.inside[slot]) means.emplace(cell);
+    if (settings.quadrature == QuadratureRule::corrected && buffers.inside[slot]) means.emplace(cell);
   }
   transfer::ElementSums<Basis> sums;
   for (const auto& block : body.blocks) {
@@ -95,7 +95,7 @@ template <class Basis, class Places>
 void sum_points(Body<Basis::dim>& body, const Places& places, const StepSettings& settings, int slot, int e,
                 PointBatch<Basis::dim>& m_v2) {
   const bool averaged =
-      settings.scheme.mean_dilatation && settings.quadrature == Quadrature::corrected && body.buffers.inside[slot];
+      settings.scheme.mean_dilatation && settings.quadrature == QuadratureRule::corrected && body.buffers.inside[slot];
   bool done = false;
   const auto sum = [&](auto means) { done = sum_points<Basis>(body, places, settings, slot, e, means, m_v2); };
   transfer::with_means<Basis>(averaged, sum);

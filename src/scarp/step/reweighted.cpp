@@ -24,7 +24,7 @@ void note_around(Body<Dim>& body, int e) {
 template <class Basis>
 double weight(const Body<Basis::dim>& body, const StepSettings& settings, int slot, int e, double volume) {
   if constexpr (Basis::corrects) {
-    if (settings.quadrature == Quadrature::corrected && body.buffers.inside[slot]) {
+    if (settings.quadrature == QuadratureRule::corrected && body.buffers.inside[slot]) {
       const transfer::Means<Basis> mean(typename Basis::Cell(*body.mesh, e));
       if (transfer::fills(volume, mean)) return mean.V / volume;
     }

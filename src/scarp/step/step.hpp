@@ -7,7 +7,7 @@
 namespace scarp {
 
 /// How the points of an element are its quadrature (transfer/quadrature.hpp).
-enum class Quadrature {
+enum class QuadratureRule {
   points,     ///< eq. 4 as printed, everywhere
   corrected,  ///< exact for uniform stress in elements inside the soil
 };
@@ -15,7 +15,7 @@ enum class Quadrature {
 struct StepSettings {
   Scheme scheme{};     ///< as constructed the report's, with pure FLIP
   double damping = 0;  ///< local damping coefficient
-  Quadrature quadrature = Quadrature::corrected;
+  QuadratureRule quadrature = QuadratureRule::corrected;
   IntegrationSettings integration;
   bool remove_leaving = false;  ///< a point that leaves the mesh is taken out, instead of an error
   bool profile = false;         ///< book the time of each Phase
