@@ -213,7 +213,7 @@ Trial<State, T> update_closed(const Law& law, const State& s, const Sym<T, N>& e
   constexpr double rounding = 1e-13;
   const auto at_end = law.resolve(s.sigma + elastic);
   auto whole = returned(law, s, elastic, at_end);
-  const Mask<T> none = T(0.0) != T(0.0), plastic = whole.plastic;
+  const Mask<T> none = no_lanes<T>(), plastic = whole.plastic;
   Trial<State, T> r{whole.state, T(0.0), {none, none, whole.parted, whole.sound}};
   if (!any(plastic)) return r;
 
@@ -273,7 +273,7 @@ auto accept(const Law& law, State& s) {
   using T = std::decay_t<decltype(s.kappa)>;
   const auto on = returned(law, s, std::decay_t<decltype(s.sigma)>::zero());
   s = select_state(on.plastic, on.state, s);
-  const Mask<T> none = T(0.0) != T(0.0);
+  const Mask<T> none = no_lanes<T>();
   UpdateFlags<T> flags{on.plastic, none, on.parted, on.sound};
   if constexpr (HasGap<State>) flags.separated = flags.separated || (s.gap > T(0.0));
   return flags;

@@ -57,7 +57,7 @@ class LinearElastic {
 
   template <class T, int N>
   UpdateFlags<T> accept(State<T, N>& s, double) const {
-    const Mask<T> nan = s.sigma[0] != s.sigma[0], none = T(0.0) != T(0.0);
+    const Mask<T> nan = s.sigma[0] != s.sigma[0], none = no_lanes<T>();
     return {none, none, none, !nan};
   }
 

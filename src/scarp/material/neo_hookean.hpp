@@ -93,7 +93,7 @@ class NeoHookean {
 
   template <class T, int N>
   UpdateFlags<T> accept(State<T, N>& s, double) const {
-    const Mask<T> none = T(0.0) != T(0.0);
+    const Mask<T> none = no_lanes<T>();
     return {none, none, none, admissible(s)};
   }
 

@@ -138,7 +138,7 @@ Rate<ViscoplasticSubloading::State<T, N>, T> ViscoplasticSubloading::rate(const 
 template <class T, int N>
 UpdateFlags<T> ViscoplasticSubloading::accept(State<T, N>& s, double) const {
   UpdateFlags<T> flags = law_.hold_at_floor(s);
-  flags.corrected = T(0.0) != T(0.0);
+  flags.corrected = no_lanes<T>();
   const auto h = law_.homothety(s);
   law_.part_where_torn(s, h.exists, flags);
   flags.sound = flags.sound && (flags.separated || (h.R < T(c_.R_m)));

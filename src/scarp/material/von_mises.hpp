@@ -46,7 +46,7 @@ class VonMises : public ElastoplasticLaw<VonMises> {
   template <class T, int N>
   Correction<T, T> correction(const At<T, N>& at, const T& kappa) const {
     const T excess = at.q - T(sqrt3) * parameters_.s_u(kappa);
-    const Mask<T> plastic = excess > T(elastoplastic::on_surface) * at.q, none = T(0.0) != T(0.0);
+    const Mask<T> plastic = excess > T(elastoplastic::on_surface) * at.q, none = no_lanes<T>();
     const T fall = select(plastic, excess, T(0.0));
     return {fall / select(plastic, at.q, T(1.0)), T(1.0 / (3.0 * elasticity_.G)) * fall, plastic, none};
   }

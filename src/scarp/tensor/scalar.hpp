@@ -11,6 +11,12 @@ namespace scarp {
 template <class T>
 using Mask = decltype(T() < T());
 
+/// True in no lane.
+template <class T>
+inline Mask<T> no_lanes() {
+  return T(0.0) != T(0.0);
+}
+
 inline double sqrt(double x) {
   return std::sqrt(x);
 }
