@@ -130,7 +130,7 @@ void update(benchmark::State& loop) {
 /// The points in a block of the material point method, with strain increments, tension positive.
 struct Soil {
   Block<2> block;
-  Strains<2> strains;
+  PointIncrements<2> increments;
 };
 
 /// Every sixteenth increment needs `substeps` substeps.
@@ -138,32 +138,32 @@ Soil make_soil(const Subloading& model, int substeps) {
   const Columns<4> c = make_points<4>(model);
   Soil soil{Block<2>("bench", model), {}};
   Block<2>& block = soil.block;  // no structured binding: clang 14 does not capture those in a lambda
-  Strains<2>& strains = soil.strains;
+  PointIncrements<2>& increments = soil.increments;
   resize(block, points);
   block.order.resize(points);
   std::iota(block.order.begin(), block.order.end(), 0);
-  strains.reserve(points);
+  increments.reserve(points);
   auto& p = block.points;
   for (std::size_t j = 0; j < 4; ++j) p.sigma[j] = c.state[j];
   for (std::size_t j = 0; j < block.state.size(); ++j) block.state[j] = c.state[j + 4];
-  for (std::size_t j = 0; j < 4; ++j) std::copy(c.deps[j].begin(), c.deps[j].end(), strains.deps[j].begin());
-  std::copy(c.spin[0].begin(), c.spin[0].end(), strains.spin[0].begin());
-  for (auto* column : {&strains.volume, &strains.per_mass}) std::fill(column->begin(), column->end(), 1.0);
+  for (std::size_t j = 0; j < 4; ++j) std::copy(c.deps[j].begin(), c.deps[j].end(), increments.deps[j].begin());
+  std::copy(c.spin[0].begin(), c.spin[0].end(), increments.spin[0].begin());
+  for (auto* column : {&increments.volume, &increments.per_mass}) std::fill(column->begin(), column->end(), 1.0);
   for (auto& column : p.sigma)
     for (double& x : column) x = -x;
-  for (auto& column : strains.deps)
+  for (auto& column : increments.deps)
     for (double& x : column) x = -x;
   for (std::size_t i = 0; i < points && substeps > 1; i += 16) {
     exec::with_state(block, static_cast<int>(i), [&](const auto& law, const auto& state) {
       Sym<double, 4> deps;
-      for (std::size_t j = 0; j < 4; ++j) deps[static_cast<int>(j)] = -strains.deps[j][i];
+      for (std::size_t j = 0; j < 4; ++j) deps[static_cast<int>(j)] = -increments.deps[j][i];
       int taken = 0;
       double factor = 1;
       for (; taken < substeps && factor < 1e4; factor *= 1.1) {
         auto s = state;
         taken = integrate<ModifiedEuler>(law, s, factor * deps, {tolerance, 1e-4}, 0.5).substeps;
       }
-      for (std::size_t j = 0; j < 4; ++j) strains.deps[j][i] *= factor / 1.1;
+      for (std::size_t j = 0; j < 4; ++j) increments.deps[j][i] *= factor / 1.1;
     });
   }
   return soil;
@@ -171,7 +171,7 @@ Soil make_soil(const Subloading& model, int substeps) {
 
 /// The stress update of a time step: rotation, update, stragglers apart, work, critical time step.
 void sweep(benchmark::State& loop) {
-  const auto [start, strains] = make_soil(soil(), static_cast<int>(loop.range(0)));
+  const auto [start, increments] = make_soil(soil(), static_cast<int>(loop.range(0)));
   Block<2> block = start;
   double substeps = 0;
   for (auto _ : loop) {
@@ -180,7 +180,7 @@ void sweep(benchmark::State& loop) {
     block.state = start.state;
     loop.ResumeTiming();
     exec::StressBooks books;
-    exec::update_stresses(block, {block.order.data(), points}, strains, 0, 1e-3, {tolerance, 1e-4}, books);
+    exec::update_stresses(block, {block.order.data(), points}, increments, 0, 1e-3, {tolerance, 1e-4}, books);
     if (books.failures > 0) loop.SkipWithError("an update failed");
     substeps = static_cast<double>(books.substeps);
   }
@@ -192,7 +192,7 @@ void sweep(benchmark::State& loop) {
 /// The same increments point by point on double: rotation and update alone.
 void one_by_one(benchmark::State& loop) {
   const Subloading model = soil();
-  const auto [start, strains] = make_soil(model, static_cast<int>(loop.range(0)));
+  const auto [start, increments] = make_soil(model, static_cast<int>(loop.range(0)));
   std::vector<State<double, 4>> states(points), ends(points);
   std::vector<Sym<double, 4>> deps(points);
   for (int i = 0; i < points; ++i) {
@@ -201,7 +201,7 @@ void one_by_one(benchmark::State& loop) {
         states[static_cast<std::size_t>(i)] = s;
     });
     for (int j = 0; j < 4; ++j) {
-      deps[static_cast<std::size_t>(i)][j] = -strains.deps[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)];
+      deps[static_cast<std::size_t>(i)][j] = -increments.deps[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)];
     }
   }
   double substeps = 0;
@@ -209,7 +209,7 @@ void one_by_one(benchmark::State& loop) {
     substeps = 0;
     for (std::size_t i = 0; i < points; ++i) {
       ends[i] = states[i];
-      rotate(ends[i], Rotation<double, 4>(Spin<double, 4>{{strains.spin[0][i]}}));
+      rotate(ends[i], Rotation<double, 4>(Spin<double, 4>{{increments.spin[0][i]}}));
       substeps += integrate<ModifiedEuler>(model, ends[i], deps[i], {tolerance, 1e-4}).substeps;
     }
     benchmark::ClobberMemory();

@@ -6,7 +6,7 @@
 
 #include "body_maker.hpp"
 #include "scarp/mesh/axisymmetric.hpp"
-#include "scarp/transfer/transfer.hpp"
+#include "scarp/transfer/nodes_to_points.hpp"
 
 namespace scarp::verification {
 namespace {
@@ -39,15 +39,15 @@ TEST(BodyOfRevolution, RadialExpansionStrainsTheCircumferenceAsMuch) {
   constexpr double c = 1e-2;
   auto& block = body.blocks[0];
   const auto before = block.points.volume;
-  Strains<2> strains;
-  strains.reserve(block.size());
+  PointIncrements<2> increments;
+  increments.reserve(block.size());
   transfer::MotionSums<2> sums;
-  constexpr double no_shift[8] = {};
+  constexpr double no_correction[8] = {};
   for (int slot = 0; slot < body.active.size(); ++slot) {
     const int e = body.active.element[slot];
     const auto n = body.mesh->element_nodes(e);
     std::array<transfer::Motion<2>, 4> motion;
-    transfer::ElementMotion<Basis> element{{}, {}, no_shift, 1, body.mesh->size[e], no_shift};
+    transfer::ElementMotion<Basis> element{{}, {}, no_correction, 1, body.mesh->size[e], no_correction};
     for (int i = 0; i < 4; ++i) {
       motion[i].du(0) = c * body.mesh->nodes[n[i]][0];
       motion[i].du(1) = -2 * c * body.mesh->nodes[n[i]][1];
@@ -55,14 +55,14 @@ TEST(BodyOfRevolution, RadialExpansionStrainsTheCircumferenceAsMuch) {
     }
     transfer::nodes_to_points<false, Basis>(
         Basis::Cell(*body.mesh, e), element, {}, block.points,
-        {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, strains, block.begin[slot],
-        std::false_type{}, sums, [](const auto&...) {});
+        {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, increments,
+        block.begin[slot], std::false_type{}, sums, [](const auto&...) {});
   }
   for (int p = 0; p < block.size(); ++p) {
-    EXPECT_NEAR(strains.deps[0][p], c, 1e-14);
-    EXPECT_NEAR(strains.deps[2][p], c, 1e-14);
-    EXPECT_NEAR(strains.deps[1][p], -2 * c, 1e-14);
-    EXPECT_NEAR(strains.deps[3][p], 0, 1e-14);
+    EXPECT_NEAR(increments.deps[0][p], c, 1e-14);
+    EXPECT_NEAR(increments.deps[2][p], c, 1e-14);
+    EXPECT_NEAR(increments.deps[1][p], -2 * c, 1e-14);
+    EXPECT_NEAR(increments.deps[3][p], 0, 1e-14);
     EXPECT_NEAR(block.points.volume[p] / before[p], (1 + c) * (1 + c) * (1 - 2 * c), 1e-13);
   }
 }

@@ -6,7 +6,7 @@
 
 #include "../step/soils.hpp"
 #include "body_maker.hpp"
-#include "scarp/transfer/transfer.hpp"
+#include "scarp/transfer/nodes_to_points.hpp"
 
 namespace scarp::verification {
 namespace {
@@ -137,17 +137,17 @@ TEST(RigidRotation, TurnsStressBetaAndCentreWithTheBody) {
   constexpr int steps = 100;
   const double angle = std::numbers::pi / 2,
                w = 2 * std::tan(angle / steps / 2);  // exact turn per step by Hughes–Winget
-  Strains<2> strains;
-  strains.reserve(block.size());
+  PointIncrements<2> increments;
+  increments.reserve(block.size());
   for (int s = 0; s < steps; ++s) {
     // ω dt = w: L dt = [[0, −w], [w, 0]], from nodal displacements through step 6.
     transfer::MotionSums<2> sums;
-    constexpr double no_shift[8] = {};
+    constexpr double no_correction[8] = {};
     for (int slot = 0; slot < body.active.size(); ++slot) {
       const int e = body.active.element[slot];
       const auto x_i = node_positions<Q4>(*body.mesh, e);
       std::array<transfer::Motion<2>, 4> motion;
-      transfer::ElementMotion<GridLinear<2>> element{{}, {}, no_shift, 1, body.mesh->size[e]};
+      transfer::ElementMotion<GridLinear<2>> element{{}, {}, no_correction, 1, body.mesh->size[e]};
       for (int i = 0; i < 4; ++i) {
         motion[i].du(0) = -w * x_i[i][1];
         motion[i].du(1) = w * x_i[i][0];
@@ -155,11 +155,11 @@ TEST(RigidRotation, TurnsStressBetaAndCentreWithTheBody) {
       }
       transfer::nodes_to_points<false, GridLinear<2>>(
           GridLinear<2>::Cell(*body.mesh, e), element, {}, block.points,
-          {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, strains,
+          {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, increments,
           block.begin[slot], std::false_type{}, sums, [](const auto&...) {});
     }
     exec::StressBooks books;
-    exec::update_stresses(block, {block.order.data(), block.size()}, strains, 0, 1.0, {}, books);
+    exec::update_stresses(block, {block.order.data(), block.size()}, increments, 0, 1.0, {}, books);
   }
   const auto sigma_exact = turned(sigma, angle), beta_exact = turned(beta, angle), a_exact = turned(a, angle);
   for (int p = 0; p < block.size(); ++p) {

@@ -14,7 +14,7 @@
 
 #include "method.hpp"
 #include "scarp/mesh/with_basis.hpp"
-#include "scarp/transfer/transfer.hpp"
+#include "scarp/transfer/nodes_to_points.hpp"
 #include "unit/tensor/matrix.hpp"
 
 namespace scarp::verification {
@@ -110,14 +110,14 @@ Body<Dim> stressed_block(GridFunctions shape) {
 template <int Dim>
 void move_with_nodes(Body<Dim>& body, const Matrix& m) {
   auto& block = body.blocks[0];
-  Strains<Dim> strains;
-  strains.reserve(block.size());
+  PointIncrements<Dim> increments;
+  increments.reserve(block.size());
   transfer::MotionSums<Dim> sums;
   with_basis(*body.mesh, body.active.element.data(), 0, body.active.size(), [&]<class Basis>(Basis, int slot, int e) {
-    constexpr double no_shift[Dim * transfer::nodal_size<Basis>] = {};
+    constexpr double no_correction[Dim * transfer::nodal_size<Basis>] = {};
     const auto nodes = body.mesh->element_nodes(e);
     std::array<transfer::Motion<Dim>, Basis::nodes> motion;
-    transfer::ElementMotion<Basis> element{{}, {}, no_shift, 1, body.mesh->size[e], no_shift};
+    transfer::ElementMotion<Basis> element{{}, {}, no_correction, 1, body.mesh->size[e], no_correction};
     for (int i = 0; i < Basis::nodes; ++i) {
       const auto du = product(m, body.mesh->nodes[nodes[i]]);
       for (int j = 0; j < Dim; ++j) motion[i].du(j) = du[j];
@@ -125,11 +125,11 @@ void move_with_nodes(Body<Dim>& body, const Matrix& m) {
     }
     transfer::nodes_to_points<false, Basis>(
         typename Basis::Cell(*body.mesh, e), element, {}, block.points,
-        {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, strains, block.begin[slot],
-        std::false_type{}, sums, [](const auto&...) {});
+        {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, increments,
+        block.begin[slot], std::false_type{}, sums, [](const auto&...) {});
   });
   exec::StressBooks books;
-  exec::update_stresses(block, {block.order.data(), block.size()}, strains, 0, 1.0, {}, books);
+  exec::update_stresses(block, {block.order.data(), block.size()}, increments, 0, 1.0, {}, books);
   locate_points(body);
 }
 

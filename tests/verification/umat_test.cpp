@@ -275,14 +275,14 @@ TEST(UmatInTheMpm, TensorStateTurnsWithThePoints) {
   const std::array<double, 4> sigma{-6, -10, -7, 2};
   for (int p = 0; p < block.size(); ++p)
     for (int c = 0; c < 4; ++c) points.sigma[c][p] = sigma[c];
-  Strains<2> strains;  // none, but for the spin
-  strains.reserve(block.size());
+  PointIncrements<2> increments;  // none, but for the spin
+  increments.reserve(block.size());
   // W_xy of an anticlockwise turn is negative; Hughes–Winget turns by 2 atan(|W_xy|/2).
-  std::fill(strains.spin[0].begin(), strains.spin[0].end(), -2 * std::tan(std::numbers::pi / 2 / 100 / 2));
-  for (auto* column : {&strains.volume, &strains.per_mass}) std::fill(column->begin(), column->end(), 1.0);
+  std::fill(increments.spin[0].begin(), increments.spin[0].end(), -2 * std::tan(std::numbers::pi / 2 / 100 / 2));
+  for (auto* column : {&increments.volume, &increments.per_mass}) std::fill(column->begin(), column->end(), 1.0);
   exec::StressBooks books;
   for (int step = 0; step < 100; ++step)
-    exec::update_stresses(block, {block.order.data(), block.size()}, strains, 0, 1e-3, {}, books);
+    exec::update_stresses(block, {block.order.data(), block.size()}, increments, 0, 1e-3, {}, books);
   const std::array<double, 4> turned_sigma{-10, -6, -7, -2}, turned_alpha{2, 1, -3, -4 * sqrt2};
   for (int p = 0; p < block.size(); ++p) {
     for (int c = 0; c < 4; ++c) {

@@ -32,9 +32,9 @@ int gap_column(const AnyModel& any) {
 }  // namespace
 
 template <int Dim>
-GapSharing<Dim>::GapSharing(Block<Dim>& block, Strains<Dim>& strains, int directions, double dt)
+GapSharing<Dim>::GapSharing(Block<Dim>& block, PointIncrements<Dim>& increments, int directions, double dt)
     : block_(block),
-      strains_(strains),
+      increments_(increments),
       directions_(directions),
       dt_(dt),
       column_(gap_column<sym_size<Dim>>(block.model)) {}
@@ -62,16 +62,16 @@ double GapSharing<Dim>::modulus(int p) const {
 template <int Dim>
 double GapSharing<Dim>::dilation(int at) const {
   double sum = 0;
-  for (int j = 0; j < directions_; ++j) sum += strains_.deps[j][at];
+  for (int j = 0; j < directions_; ++j) sum += increments_.deps[j][at];
   return sum;
 }
 
 template <int Dim>
 void GapSharing<Dim>::add(int p, int at, double strain) {
   block_.points.volume[p] *= std::exp(strain);
-  strains_.per_mass[at] *= std::exp(strain);
-  strains_.volume[at] *= std::exp(0.5 * strain);
-  for (int j = 0; j < directions_; ++j) strains_.deps[j][at] += strain / directions_;
+  increments_.per_mass[at] *= std::exp(strain);
+  increments_.volume[at] *= std::exp(0.5 * strain);
+  for (int j = 0; j < directions_; ++j) increments_.deps[j][at] += strain / directions_;
 }
 
 template <int Dim>
@@ -85,7 +85,7 @@ void GapSharing<Dim>::in_element(PointRange range, double size, int at) {
     const double Omega = points.volume[p];
     volume += Omega;
     stress += Omega * mean(points.sigma, p);
-    per_mass += Omega * strains_.per_mass[at + k];
+    per_mass += Omega * increments_.per_mass[at + k];
     if (gap(p) > 0) continue;
     carrying += Omega;
     M += Omega * modulus(p);
@@ -111,7 +111,7 @@ void GapSharing<Dim>::in_element(PointRange range, double size, int at) {
 template <int Dim>
 double GapSharing<Dim>::work() const {
   double work = 0;
-  for (const auto& t : taken_) work += strains_.volume[t.at] * 0.5 * (t.felt + felt(t.point)) * t.strain;
+  for (const auto& t : taken_) work += increments_.volume[t.at] * 0.5 * (t.felt + felt(t.point)) * t.strain;
   return work;
 }
 

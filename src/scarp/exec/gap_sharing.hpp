@@ -24,7 +24,7 @@ template <int Dim>
 class GapSharing {
  public:
   /// `directions` of volume strain: the first 2 or 3 normal components. `dt` in s.
-  GapSharing(Block<Dim>& block, Strains<Dim>& strains, int directions, double dt);
+  GapSharing(Block<Dim>& block, PointIncrements<Dim>& increments, int directions, double dt);
 
   /// Has the law openings to share?
   bool active() const { return column_ >= 0; }
@@ -53,7 +53,7 @@ class GapSharing {
   void add(int p, int at, double strain);
 
   Block<Dim>& block_;
-  Strains<Dim>& strains_;
+  PointIncrements<Dim>& increments_;
   int directions_;
   double dt_;
   int column_;  ///< of the gap in the state; −1: the law has none

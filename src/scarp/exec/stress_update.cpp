@@ -19,15 +19,15 @@ class Update {
   static constexpr int N = sym_size<Dim>;
   template <class T>
   using State = typename Model::template State<T, N>;
-  using Increments = Strains<Dim>;
+  using Increments = PointIncrements<Dim>;
 
  public:
-  Update(const Model& model, Block<Dim>& block, const Strains<Dim>& strains, double dt,
+  Update(const Model& model, Block<Dim>& block, const PointIncrements<Dim>& increments, double dt,
          const IntegrationSettings& settings, const WaveSettings& waves, StressBooks& books)
       : model_(model),
         block_(block),
         points_(block.points),
-        strains_(strains),
+        increments_(increments),
         dt_(dt),
         settings_(settings),
         waves_(waves),
@@ -56,24 +56,24 @@ class Update {
     const State<Batch> old = p.whole() ? load_state(WholeLanes<Batch>(p.point(0))) : load_state(p);
     fetch_ahead(p.point(0) + W);
     Sym<Batch, N> deps;
-    for (int c = 0; c < N; ++c) deps[c] = -increment(strains_.deps[c], at);
+    for (int c = 0; c < N; ++c) deps[c] = -increment(increments_.deps[c], at);
     Spin<Batch, N> spin;
-    for (std::size_t c = 0; c < spin.w.size(); ++c) spin.w[c] = increment(strains_.spin[c], at);
-    State<Batch> turned = old;
-    rotate(model_, turned, Rotation<Batch, N>(spin));  // eq. 12 and eq. 13, exact
+    for (std::size_t c = 0; c < spin.w.size(); ++c) spin.w[c] = increment(increments_.spin[c], at);
+    State<Batch> rotated = old;
+    rotate(model_, rotated, Rotation<Batch, N>(spin));  // eq. 12 and eq. 13, exact
 
     const auto trial =
-        attempt<ModifiedEuler>(model_, turned, Increment<Batch, N>{deps, Batch(dt_)}, settings_.tolerance);
+        attempt<ModifiedEuler>(model_, rotated, Increment<Batch, N>{deps, Batch(dt_)}, settings_.tolerance);
     const auto good = trial.flags.sound && (trial.error <= Batch(settings_.tolerance));
     p.store(p.load(points_.eps_q) + Batch(sqrt_2_3) * norm(deviator(deps)), points_.eps_q);
 
     const unsigned present = first_bits(p.count()), done = bits_of(good) & present;
     Batch damping(0.0);
     if (damped_) {
-      damping = p.whole() ? look_ahead(WholeLanes<Batch>(p.point(0)), old.sigma, turned.sigma, trial, good, deps, at)
-                          : look_ahead(p, old.sigma, turned.sigma, trial, good, deps, at);
+      damping = p.whole() ? look_ahead(WholeLanes<Batch>(p.point(0)), old.sigma, rotated.sigma, trial, good, deps, at)
+                          : look_ahead(p, old.sigma, rotated.sigma, trial, good, deps, at);
     }
-    const Batch work = increment(strains_.volume, at) * Batch(0.5) * dot(turned.sigma + trial.state.sigma, deps);
+    const Batch work = increment(increments_.volume, at) * Batch(0.5) * dot(rotated.sigma + trial.state.sigma, deps);
     const Batch modulus = model_.p_wave_modulus(trial.state);
     const auto stiff = modulus > Batch(0.0);
     const Batch rate2 = crossing_rate2(modulus, at);
@@ -115,21 +115,21 @@ class Update {
   /// σ* of the points whose trial is `good`, to its columns; returns what that damps. A separated point is felt as it
   /// is.
   template <class Lanes>
-  [[gnu::always_inline]] Batch look_ahead(const Lanes& p, const Sym<Batch, N>& old, const Sym<Batch, N>& turned,
+  [[gnu::always_inline]] Batch look_ahead(const Lanes& p, const Sym<Batch, N>& old, const Sym<Batch, N>& rotated,
                                           const Trial<State<Batch>, Batch>& trial, const Mask<Batch>& good,
                                           const Sym<Batch, N>& deps, int at) {
     const auto& now = trial.state;
     const Batch share = select(trial.flags.separated, Batch(0.0),
-                               share_ahead(model_.p_wave_modulus(now), increment(strains_.per_mass, at)));
+                               share_ahead(model_.p_wave_modulus(now), increment(increments_.per_mass, at)));
     Batch rate(0.0);
     for (int c = 0; c < N; ++c) {
       auto& ahead = points_.sigma_ahead[c];
       if (ahead.empty()) continue;
-      const Batch change = share * (now.sigma[c] - turned[c]), before = p.load(ahead);
+      const Batch change = share * (now.sigma[c] - rotated[c]), before = p.load(ahead);
       rate = fma(change - before - old[c], deps[c], rate);
       p.store(select(good, -(now.sigma[c] + change), before), ahead);
     }
-    return increment(strains_.volume, at) * Batch(0.5) * rate;
+    return increment(increments_.volume, at) * Batch(0.5) * rate;
   }
 
   /// β/dt, from c²/h² = modulus · per_mass.
@@ -149,11 +149,11 @@ class Update {
   /// Each with its own substeps, as many at once as a batch has lanes.
   void finish_stragglers() {
     integrate_lanes<ModifiedEuler, Model, N>(
-        model_, straggler_count_, [&](int i) { return turned_point(stragglers_[i]); },
+        model_, straggler_count_, [&](int i) { return rotated_point(stragglers_[i]); },
         [&](int i, const State<double>& end, const IntegrationReport& report) {
           const auto [p, at] = stragglers_[i];
-          const auto start = turned_point(stragglers_[i]);  // the columns still hold the start
-          books_.work += strains_.volume[at] * 0.5 * dot(start.state.sigma + end.sigma, start.whole.deps);
+          const auto start = rotated_point(stragglers_[i]);  // the columns still hold the start
+          books_.work += increments_.volume[at] * 0.5 * dot(start.state.sigma + end.sigma, start.whole.deps);
           if (damped_) look_ahead(p, at, start, end, report);
           store_state(end, p);
           record(p, report.substeps, report.flags, report.end);
@@ -167,7 +167,7 @@ class Update {
   void look_ahead(int p, int at, const Task<Model, N>& start, const State<double>& end,
                   const IntegrationReport& report) {
     const bool follows = report.end == IntegrationEnd::done && !report.flags.separated;
-    const double share = follows ? share_ahead(model_.p_wave_modulus(end), strains_.per_mass[at]) : 0.0;
+    const double share = follows ? share_ahead(model_.p_wave_modulus(end), increments_.per_mass[at]) : 0.0;
     double rate = 0;
     for (int c = 0; c < N; ++c) {
       auto& ahead = points_.sigma_ahead[c];
@@ -176,16 +176,16 @@ class Update {
       rate += (change - ahead[p] + points_.sigma[c][p]) * start.whole.deps[c];
       ahead[p] = -(end.sigma[c] + change);
     }
-    books_.damping += strains_.volume[at] * 0.5 * rate;
+    books_.damping += increments_.volume[at] * 0.5 * rate;
   }
 
-  /// The state of a point, turned with the body, and its increment.
-  Task<Model, N> turned_point(const Straggler& straggler) const {
+  /// The state of a point, rotated with the body, and its increment.
+  Task<Model, N> rotated_point(const Straggler& straggler) const {
     const auto [p, at] = straggler;
     Task<Model, N> task{load_state(p), {{}, dt_}};
-    for (int c = 0; c < N; ++c) task.whole.deps[c] = -strains_.deps[c][at];
+    for (int c = 0; c < N; ++c) task.whole.deps[c] = -increments_.deps[c][at];
     Spin<double, N> spin;
-    for (std::size_t c = 0; c < spin.w.size(); ++c) spin.w[c] = strains_.spin[c][at];
+    for (std::size_t c = 0; c < spin.w.size(); ++c) spin.w[c] = increments_.spin[c][at];
     rotate(model_, task.state, Rotation<double, N>(spin));
     return task;
   }
@@ -219,7 +219,7 @@ class Update {
   /// The square of c/(k h) + |v|/h: its inverse is the time that a compression wave (with the factor k of the scheme)
   /// and the point itself need to cross the point's element.
   Batch crossing_rate2(const Batch& modulus, int at) const {
-    const Batch rate2 = modulus * increment(strains_.per_mass, at), v2 = increment(strains_.speed2, at);
+    const Batch rate2 = modulus * increment(increments_.per_mass, at), v2 = increment(increments_.speed2, at);
     const Batch c2 = rate2 * (waves_.time > 0 ? waves_.per_limit2(rate2) : Batch(per_limit2_));
     return c2 + v2 + Batch(2.0) * sqrt(c2 * v2);
   }
@@ -228,8 +228,8 @@ class Update {
       ++books_.no_stiffness;
       return;
     }
-    const double rate2 = modulus * strains_.per_mass[at];
-    const double rate = std::sqrt(rate2 * waves_.per_limit2(rate2)) + std::sqrt(strains_.speed2[at]);
+    const double rate2 = modulus * increments_.per_mass[at];
+    const double rate = std::sqrt(rate2 * waves_.per_limit2(rate2)) + std::sqrt(increments_.speed2[at]);
     books_.critical_dt = std::min(books_.critical_dt, 1 / rate);
   }
 
@@ -266,7 +266,7 @@ class Update {
   const Model& model_;
   Block<Dim>& block_;
   Points<Dim>& points_;
-  const Strains<Dim>& strains_;
+  const PointIncrements<Dim>& increments_;
   double dt_;
   const IntegrationSettings& settings_;
   const WaveSettings& waves_;
@@ -299,18 +299,18 @@ StressBooks& StressBooks::operator+=(const StressBooks& other) {
 }
 
 template <int Dim>
-void update_stresses(Block<Dim>& block, PointRange range, const Strains<Dim>& strains, int at, double dt,
+void update_stresses(Block<Dim>& block, PointRange range, const PointIncrements<Dim>& increments, int at, double dt,
                      const IntegrationSettings& settings, StressBooks& books, const WaveSettings& waves) {
   std::visit(
       [&]<class Model>(const Model& model) {
         if constexpr (Averaged<Model>) {
           if (block.length > 0) {
             const Nonlocal<Model> nonlocal(model);
-            Update<Nonlocal<Model>, Dim>(nonlocal, block, strains, dt, settings, waves, books)(range, at);
+            Update<Nonlocal<Model>, Dim>(nonlocal, block, increments, dt, settings, waves, books)(range, at);
             return;
           }
         }
-        Update<Model, Dim>(model, block, strains, dt, settings, waves, books)(range, at);
+        Update<Model, Dim>(model, block, increments, dt, settings, waves, books)(range, at);
       },
       block.model);
 }
@@ -338,10 +338,10 @@ double critical_time_step(const Block<Dim>& block, const std::vector<double>& el
   return dt;
 }
 
-template void update_stresses<2>(Block<2>&, PointRange, const Strains<2>&, int, double, const IntegrationSettings&,
-                                 StressBooks&, const WaveSettings&);
-template void update_stresses<3>(Block<3>&, PointRange, const Strains<3>&, int, double, const IntegrationSettings&,
-                                 StressBooks&, const WaveSettings&);
+template void update_stresses<2>(Block<2>&, PointRange, const PointIncrements<2>&, int, double,
+                                 const IntegrationSettings&, StressBooks&, const WaveSettings&);
+template void update_stresses<3>(Block<3>&, PointRange, const PointIncrements<3>&, int, double,
+                                 const IntegrationSettings&, StressBooks&, const WaveSettings&);
 template double critical_time_step<2>(const Block<2>&, const std::vector<double>&, const ActiveElements&, const Column&,
                                       const Column&, const WaveSettings&);
 template double critical_time_step<3>(const Block<3>&, const std::vector<double>&, const ActiveElements&, const Column&,

@@ -11,7 +11,7 @@
 #include "scarp/material/integrate/embedded.hpp"
 #include "scarp/points/lanes.hpp"
 #include "scarp/points/points.hpp"
-#include "scarp/transfer/strains.hpp"
+#include "scarp/transfer/point_increments.hpp"
 
 namespace scarp::exec {
 
@@ -43,7 +43,7 @@ struct WaveSettings {
 /// What a stress update did, summed over points in a fixed order.
 struct StressBooks {
   double damping = 0;  ///< Σ Ω ½ (σ* − σ at t, and at t + dt) : dε
-  double work = 0;     ///< Σ Ω ½ (σ^t + σ^{t+dt}) : dε, with σ^t turned with the body
+  double work = 0;     ///< Σ Ω ½ (σ^t + σ^{t+dt}) : dε, with σ^t rotated with the body
   double critical_dt = std::numeric_limits<double>::infinity();  ///< least 1 / (c/(k h) + |v|/h)
   std::int64_t substeps = 0;
   int most_substeps = 0;
@@ -55,14 +55,14 @@ struct StressBooks {
 };
 
 /// Updates stress, state, shear strain and flags of some points of a block over the time dt, from their strain and spin
-/// increments in `strains` from place `at` on.
+/// increments in `increments` from place `at` on.
 template <int Dim>
-void update_stresses(Block<Dim>& block, PointRange range, const Strains<Dim>& strains, int at, double dt,
+void update_stresses(Block<Dim>& block, PointRange range, const PointIncrements<Dim>& increments, int at, double dt,
                      const IntegrationSettings& settings, StressBooks& books, const WaveSettings& waves = {});
 
 /// The least 1 / (c/(k h) + |v|/h) over the points of a block, with c the compression wave speed of their present
 /// stiffness; infinite where no point has stiffness. `weight` is that of the points in the quadrature of the active
-/// element in each slot, `least_per_mass` a bound of Strains::per_mass from below in it, or empty.
+/// element in each slot, `least_per_mass` a bound of PointIncrements::per_mass from below in it, or empty.
 template <int Dim>
 double critical_time_step(const Block<Dim>& block, const std::vector<double>& element_size,
                           const ActiveElements& active, const Column& weight, const Column& least_per_mass,

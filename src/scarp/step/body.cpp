@@ -10,20 +10,21 @@
 #include "scarp/exec/arrange.hpp"
 #include "scarp/exec/parallel.hpp"
 #include "scarp/mesh/with_basis.hpp"
-#include "scarp/transfer/transfer.hpp"
+#include "scarp/transfer/quadrature.hpp"
 
 namespace scarp {
 
 namespace {
 
-/// The most numbers that an element of the mesh stores of its quadrature's shift.
+/// The most numbers that an element of the mesh stores of its quadrature's correction.
 template <int Dim>
-std::size_t largest_shift(const Mesh<Dim>& mesh) {
+std::size_t largest_correction(const Mesh<Dim>& mesh) {
   std::vector<int> elements(mesh.grid ? 1 : static_cast<std::size_t>(mesh.element_count()));  // all are alike in a grid
   std::iota(elements.begin(), elements.end(), 0);
   int most = 0;
-  with_basis<Dim>(mesh, elements.data(), 0, static_cast<int>(elements.size()),
-                  [&]<class Basis>(Basis, int, int) { most = std::max(most, transfer::Shift<Basis>::size); });
+  with_basis<Dim>(mesh, elements.data(), 0, static_cast<int>(elements.size()), [&]<class Basis>(Basis, int, int) {
+    most = std::max(most, transfer::GradientCorrection<Basis>::size);
+  });
   return static_cast<std::size_t>(most);
 }
 
@@ -56,7 +57,7 @@ Body<Dim>::Body(std::unique_ptr<const Mesh<Dim>> background, const Vec<Dim>& gra
       locator(*mesh),
       conditions(mesh->node_count()),
       gravity(gravitational_acceleration) {
-  buffers.shift_row = largest_shift(*mesh);
+  buffers.correction_row = largest_correction(*mesh);
   if (!patches.empty()) buffers.full_volume = volumes_of_nodes(*mesh);
 }
 
@@ -93,8 +94,8 @@ void make_room(Body<Dim>& body) {
   }
   buffers.changed.reserve(body.mesh->types.size());
   buffers.is_changed.assign(body.mesh->types.size(), 0);
-  buffers.shift.reserve(elements * buffers.shift_row);
-  if (body.mesh->axisymmetric) buffers.hoop_shift.reserve(elements * padded);
+  buffers.correction.reserve(elements * buffers.correction_row);
+  if (body.mesh->axisymmetric) buffers.hoop_correction.reserve(elements * padded);
   buffers.mass_matrix.reserve(elements * mass_matrix_row(body.assembly.row()));
   buffers.sums.reserve(places * transfer::node_sums<Dim>);
   buffers.momentum.reserve(places * transfer::momentum_size<Dim>);
@@ -199,8 +200,8 @@ void rebuild(Body<Dim>& body) {
     buffers.bounds.stiffness.resize(body.mesh->nodes.size());
     buffers.bounds.age = buffers.bounds.every;
   }
-  buffers.shift.resize(slots * buffers.shift_row);
-  if (body.mesh->axisymmetric) buffers.hoop_shift.resize(slots * padded_row(body.assembly.row()));
+  buffers.correction.resize(slots * buffers.correction_row);
+  if (body.mesh->axisymmetric) buffers.hoop_correction.resize(slots * padded_row(body.assembly.row()));
   buffers.mass_matrix.resize(slots * mass_matrix_row(body.assembly.row()));
   buffers.sums.resize(places * transfer::node_sums<Dim>);
   buffers.momentum.resize(places * transfer::momentum_size<Dim>);
@@ -228,10 +229,10 @@ void prepare_threads(Body<Dim>& body) {
       most = std::max(most, block.begin[last] - block.begin[first]);
     }
   }
-  auto& strains = body.buffers.strains;
+  auto& increments = body.buffers.increments;
   const auto threads = static_cast<std::size_t>(exec::thread_count());
-  if (strains.size() < threads) strains.resize(threads);
-  for (auto& of_thread : strains) of_thread.reserve(most);
+  if (increments.size() < threads) increments.resize(threads);
+  for (auto& of_thread : increments) of_thread.reserve(most);
 }
 
 template struct Body<2>;

@@ -16,7 +16,9 @@
 #include "scarp/step/nonlocal.hpp"
 #include "scarp/step/release.hpp"
 #include "scarp/step/sides.hpp"
-#include "scarp/transfer/transfer.hpp"
+#include "scarp/transfer/mass_matrix.hpp"
+#include "scarp/transfer/node_values.hpp"
+#include "scarp/transfer/point_increments.hpp"
 
 namespace scarp {
 
@@ -52,7 +54,7 @@ struct NodeBounds {
   int age = 0;    ///< steps since the last one
   // Of each slot:
   Column filled;          ///< w Σ Ω_p
-  Column least_per_mass;  ///< of Strains::per_mass
+  Column least_per_mass;  ///< of PointIncrements::per_mass
   // Of every node of the mesh, valid for active ones:
   Column stiffness;  ///< ½ G_n / m_n
 };
@@ -63,15 +65,15 @@ struct Buffers {
   // Of each slot:
   std::vector<std::uint8_t> inside;  ///< are all elements around it active, too?
   Column weight;                     ///< w of its quadrature
-  Column shift;                      ///< transfer::Shift of its quadrature, as stored: shift_row numbers
-  std::size_t shift_row = 0;
+  Column correction;  ///< transfer::GradientCorrection of its quadrature, as stored: correction_row numbers
+  std::size_t correction_row = 0;
   std::vector<std::uint8_t> left;             ///< has a point left it in this step?
   std::vector<std::uint8_t> mean_dilatation;  ///< is the volume strain of its points a mean?
   Column mean_gradient;                       ///< B̄_i of such a cell of GIMP
   std::vector<PatchShare> patch_share;        ///< of triangles and tetrahedra
   NodeBounds bounds;
-  Column hoop_shift;   ///< the same of N_i / r, in a body of revolution
-  Column mass_matrix;  ///< M_ij, where elements keep it
+  Column hoop_correction;  ///< the same of N_i / r, in a body of revolution
+  Column mass_matrix;      ///< M_ij, where elements keep it
   // Of each place of the assembly:
   Column sums;      ///< transfer::node_sums numbers
   Column momentum;  ///< up to transfer::momentum_size numbers
@@ -83,8 +85,8 @@ struct Buffers {
       half_path;  ///< with P, of nodes acted on: ½ P v^t dt, half of what forces work on; of a held component its du
   ZeroPages<Resistance<Dim>> resistance;  ///< with damping, and where nodes are not free
   Column full_volume;                     ///< Σ V_e / K_e of the K_e nodes of elements e; where there are simplices
-  std::vector<Strains<Dim>> strains;      ///< of each thread
-  std::vector<StepBooks<Dim>> books;      ///< of each chunk
+  std::vector<PointIncrements<Dim>> increments;  ///< of each thread
+  std::vector<StepBooks<Dim>> books;             ///< of each chunk
   // Elements whose quadrature changes with the points that do (reweighted.hpp), and which of all these are.
   std::vector<int> changed;
   std::vector<std::uint8_t> is_changed;

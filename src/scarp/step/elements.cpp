@@ -11,7 +11,9 @@
 #include "scarp/step/element.hpp"
 #include "scarp/step/patches.hpp"
 #include "scarp/step/phases.hpp"
-#include "scarp/transfer/transfer.hpp"
+#include "scarp/transfer/mass_matrix.hpp"
+#include "scarp/transfer/nodes_to_points.hpp"
+#include "scarp/transfer/points_to_nodes.hpp"
 
 namespace scarp::step {
 namespace {
@@ -70,20 +72,22 @@ SCARP_FLATTEN bool sum_points(Body<Basis::dim>& body, const Places& places, cons
   if constexpr (Basis::corrects) {
     const double volume = xsimd::hadd(sums.Omega);
     if (means && transfer::fills(volume, *means)) {
-      quadrature = transfer::full_element<Basis>(cell, *means, volume, sums.shift, transfer::totals<Basis>(sums.hoop));
+      quadrature =
+          transfer::full_element<Basis>(cell, *means, volume, sums.correction, transfer::totals<Basis>(sums.hoop));
     }
   }
   if (averaged) use_means<Basis>(buffers, slot, sums, *means, quadrature);
   buffers.weight[slot] = quadrature.weight;
   if (!buffers.bounds.filled.empty()) buffers.bounds.filled[slot] = quadrature.weight * xsimd::hadd(sums.Omega);
   buffers.mean_dilatation[slot] = averaged;
-  quadrature.shift.store(buffers.shift.data() + slot * buffers.shift_row);
+  quadrature.correction.store(buffers.correction.data() + slot * buffers.correction_row);
   if constexpr (is_axisymmetric<Basis>) {
-    transfer::store_nodal<Basis>(quadrature.hoop_shift[0],
-                                 buffers.hoop_shift.data() + slot * padded_row(body.assembly.row()));
+    transfer::store_nodal<Basis>(quadrature.hoop_correction[0],
+                                 buffers.hoop_correction.data() + slot * padded_row(body.assembly.row()));
   }
   if constexpr (transfer::keeps_mass_matrix<Basis>) {
-    transfer::store_mass_matrix(sums, buffers.mass_matrix.data() + slot * mass_matrix_row(body.assembly.row()));
+    transfer::store_mass_matrix<Basis>(sums.M,
+                                       buffers.mass_matrix.data() + slot * mass_matrix_row(body.assembly.row()));
   }
   transfer::add_to_nodes<Basis>(sums, transfer::internal_force<Basis>(sums, quadrature), body.assembly.places_of(slot),
                                 buffers.sums.data());
@@ -233,12 +237,12 @@ double mean_dilation(const Body<Basis::dim>& body, int slot, const typename Basi
 /// Steps 4, 6, 8, 9, 10 and 11 for the points of a block in an element.
 template <bool pic, class Basis, class Averaged>
 SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block, int slot, int e,
-                               const MoveRules& rules, Strains<Basis::dim>& strains, int at, Averaged averaged,
-                               MotionBooks<Basis::dim>& motion, StepBooks<Basis::dim>& books) {
+                               const MoveRules& rules, PointIncrements<Basis::dim>& increments, int at,
+                               Averaged averaged, MotionBooks<Basis::dim>& motion, StepBooks<Basis::dim>& books) {
   const typename Basis::Cell cell(*body.mesh, e);
   transfer::ElementMotion<Basis> element{motion_of_nodes<Basis>(body, e),
                                          {},
-                                         body.buffers.shift.data() + slot * body.buffers.shift_row,
+                                         body.buffers.correction.data() + slot * body.buffers.correction_row,
                                          body.buffers.weight[slot],
                                          body.mesh->size[e],
                                          nullptr,
@@ -246,7 +250,7 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
                                          0};
   if constexpr (is_simplex<Basis>) element.least_per_mass = body.buffers.bounds.least_per_mass[slot];
   if constexpr (is_axisymmetric<Basis>) {
-    element.hoop_shift = body.buffers.hoop_shift.data() + slot * padded_row(body.assembly.row());
+    element.hoop_correction = body.buffers.hoop_correction.data() + slot * padded_row(body.assembly.row());
   }
   transfer::Motion<Basis::dim> mean_motion;
   if (rules.mends_massless) mend_massless<Basis>(body, e, element.motion, mean_motion);
@@ -257,7 +261,7 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
   if (averaged) element.mean_dilation = mean_dilation<Basis>(body, slot, cell, element.motion);
   const std::int64_t changed = books.changed_element;
   transfer::nodes_to_points<pic, Basis>(
-      cell, element, rules.motion, block.points, points_of(block, slot), strains, at, averaged, motion.sums,
+      cell, element, rules.motion, block.points, points_of(block, slot), increments, at, averaged, motion.sums,
       [&](const auto& p, const auto& x, const auto& before) {
         const unsigned inside =
             still_inside<Basis>(cell, p, x, before, body.locator.tolerance(), block.points,
@@ -273,12 +277,13 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
 /// Of a chunk of elements. Inlined it has not all registers.
 template <bool pic, int Dim>
 [[gnu::noinline]] void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, const MoveRules& rules,
-                                       Strains<Dim>& strains, exec::GapSharing<Dim>* sharing, StepBooks<Dim>& books) {
+                                       PointIncrements<Dim>& increments, exec::GapSharing<Dim>* sharing,
+                                       StepBooks<Dim>& books) {
   MotionBooks<Dim> motion;
   for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
     const int at = block.begin[slot] - block.begin[first];
     transfer::with_means<Basis>(body.buffers.mean_dilatation[slot] != 0, [&](auto averaged) {
-      move_points<pic, Basis>(body, block, slot, e, rules, strains, at, averaged, motion, books);
+      move_points<pic, Basis>(body, block, slot, e, rules, increments, at, averaged, motion, books);
     });
     if (sharing) sharing->in_element(points_of(block, slot), body.mesh->size[e], at);
   });
@@ -362,21 +367,21 @@ void strain_stress_and_motion(Body<Dim>& body, double dt, const StepSettings& se
                         scheme.lateness,
                         scheme.mends_massless && books.massless_nodes > 0};
   for_each_chunk(body, element_chunk, books, [&](int first, int last, StepBooks<Dim>& part) {
-    Strains<Dim>& strains = body.buffers.strains[exec::thread_number()];
+    PointIncrements<Dim>& increments = body.buffers.increments[exec::thread_number()];
     for (auto& block : body.blocks) {
-      exec::GapSharing<Dim> gaps(block, strains, body.mesh->axisymmetric ? 3 : Dim, dt);
+      exec::GapSharing<Dim> gaps(block, increments, body.mesh->axisymmetric ? 3 : Dim, dt);
       auto* sharing = scheme.shares_gaps && gaps.active() ? &gaps : nullptr;
       {
         const Stopwatch<Dim> watch(settings.profile, part, Phase::strain_and_move);
         if (rules.motion.flip == 1 || scheme.two_terms) {
-          strain_and_move<false>(body, block, first, last, rules, strains, sharing, part);
+          strain_and_move<false>(body, block, first, last, rules, increments, sharing, part);
         } else {
-          strain_and_move<true>(body, block, first, last, rules, strains, sharing, part);
+          strain_and_move<true>(body, block, first, last, rules, increments, sharing, part);
         }
       }
       const Stopwatch<Dim> watch(settings.profile, part, Phase::stress);
       const PointRange range{block.order.data() + block.begin[first], block.begin[last] - block.begin[first]};
-      exec::update_stresses(block, range, strains, 0, dt, settings.integration, part.stress,
+      exec::update_stresses(block, range, increments, 0, dt, settings.integration, part.stress,
                             scheme::waves(scheme, is_elastic(block.model), settings.damping));
       if (sharing) part.stress.work -= sharing->work();
     }

@@ -7,7 +7,8 @@
 #include "scarp/mesh/with_basis.hpp"
 #include "scarp/step/element.hpp"
 #include "scarp/step/phases.hpp"
-#include "scarp/transfer/transfer.hpp"
+#include "scarp/transfer/means.hpp"
+#include "scarp/transfer/simd/fields.hpp"
 
 namespace scarp::step {
 namespace {

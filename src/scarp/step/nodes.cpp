@@ -6,7 +6,7 @@
 
 #include "scarp/exec/parallel.hpp"
 #include "scarp/step/phases.hpp"
-#include "scarp/transfer/transfer.hpp"
+#include "scarp/transfer/node_values.hpp"
 
 namespace scarp::step {
 namespace {

@@ -4,7 +4,7 @@
 #include "scarp/mesh/with_basis.hpp"
 #include "scarp/step/element.hpp"
 #include "scarp/step/phases.hpp"
-#include "scarp/transfer/transfer.hpp"
+#include "scarp/transfer/means.hpp"
 
 namespace scarp::step {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "scarp/step/phases.hpp"
-#include "scarp/transfer/transfer.hpp"
+#include "scarp/transfer/node_values.hpp"
 
 namespace scarp {
 namespace {

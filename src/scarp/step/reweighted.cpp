@@ -3,7 +3,7 @@
 #include "scarp/exec/elastic_energy.hpp"
 #include "scarp/mesh/with_basis.hpp"
 #include "scarp/step/element.hpp"
-#include "scarp/transfer/transfer.hpp"
+#include "scarp/transfer/quadrature.hpp"
 
 namespace scarp::step {
 namespace {

@@ -12,7 +12,7 @@
 #include "scarp/mesh/build.hpp"
 #include "scarp/mesh/shapes.hpp"
 #include "scarp/step/phases.hpp"
-#include "scarp/transfer/transfer.hpp"
+#include "scarp/transfer/node_values.hpp"
 
 namespace scarp {
 namespace {

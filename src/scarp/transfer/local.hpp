@@ -4,7 +4,7 @@
 #include "scarp/mesh/basis.hpp"
 #include "scarp/points/lanes.hpp"
 #include "scarp/points/points.hpp"
-#include "scarp/transfer/batches.hpp"
+#include "scarp/transfer/simd/batches.hpp"
 
 namespace scarp::transfer {
 

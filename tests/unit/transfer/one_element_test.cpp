@@ -10,7 +10,8 @@
 #include "mesh/meshes.hpp"
 #include "mesh/solids.hpp"
 #include "scarp/mesh/with_basis.hpp"
-#include "scarp/transfer/transfer.hpp"
+#include "scarp/transfer/nodes_to_points.hpp"
+#include "scarp/transfer/points_to_nodes.hpp"
 
 namespace scarp::test {
 namespace {
@@ -191,14 +192,14 @@ void expect_linear_fields(const Case<Dim>& of, Points<Dim> points) {
   std::vector<int> order(points.mass.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
   const int count = static_cast<int>(order.size());
-  Strains<Dim> strains;
-  strains.reserve(count);
+  PointIncrements<Dim> increments;
+  increments.reserve(count);
   with_basis<Dim>(of.mesh, &of.element, 0, 1, [&]<class Basis>(Basis, int, int e) {
     const typename Basis::Cell cell(of.mesh, e);
     const auto number = of.mesh.element_nodes(e);
     std::array<transfer::Motion<Dim>, Basis::nodes> motion{};
-    const std::array<double, 1024> no_shift{};
-    transfer::ElementMotion<Basis> element{{}, {}, no_shift.data(), 1, of.mesh.size[e]};
+    const std::array<double, 1024> no_correction{};
+    transfer::ElementMotion<Basis> element{{}, {}, no_correction.data(), 1, of.mesh.size[e]};
     for (int n = 0; n < Basis::nodes; ++n) {
       for (int j = 0; j < Dim; ++j) {
         motion[n].dv(j) = field(0, j, of.mesh.nodes[number[n]]);
@@ -207,7 +208,7 @@ void expect_linear_fields(const Case<Dim>& of, Points<Dim> points) {
       element.motion[n] = motion[n].row.data();
     }
     transfer::MotionSums<Dim> sums;
-    transfer::nodes_to_points<false, Basis>(cell, element, {}, points, {order.data(), count}, strains, 0,
+    transfer::nodes_to_points<false, Basis>(cell, element, {}, points, {order.data(), count}, increments, 0,
                                             std::false_type{}, sums, [](const auto&, const auto&, const auto&) {});
   });
   for (int i = 0; i < count; ++i) {
@@ -218,7 +219,7 @@ void expect_linear_fields(const Case<Dim>& of, Points<Dim> points) {
       for (int k = j; k < Dim; ++k) {
         const double L_jk = 0.01 * (2 + 2 * j - 3 * k), L_kj = 0.01 * (2 + 2 * k - 3 * j);
         const double strain = j == k ? L_jk : (L_jk + L_kj) / sqrt2;
-        EXPECT_NEAR(strains.deps[transfer::mandel(j, k)][i], strain, 1e-13) << j << k;
+        EXPECT_NEAR(increments.deps[transfer::mandel(j, k)][i], strain, 1e-13) << j << k;
       }
     }
   }

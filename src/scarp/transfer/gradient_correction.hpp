@@ -1,24 +1,24 @@
-// The shift s_i of an element's gradients (transfer/quadrature.hpp): what it follows from, and what it does.
+// The correction s_i of an element's gradients (transfer/quadrature.hpp): what it follows from, and what it does.
 #pragma once
 
 #include <array>
 
-#include "scarp/transfer/at_nodes.hpp"
-#include "scarp/transfer/field.hpp"
+#include "scarp/transfer/simd/fields.hpp"
+#include "scarp/transfer/simd/shapes_at_points.hpp"
 
 namespace scarp::transfer {
 
 /// Is there one? In a simplex B_i is constant and its own mean.
 template <class Basis>
-inline constexpr bool has_shift = Basis::corrects && !is_simplex<Basis>;
+inline constexpr bool has_correction = Basis::corrects && !is_simplex<Basis>;
 
 /// Σ Ω_p B_i over the points.
 template <class Basis>
-struct ShiftSums {
-  static constexpr int rows = has_shift<Basis> ? Basis::dim : 0;
+struct CorrectionSums {
+  static constexpr int rows = has_correction<Basis> ? Basis::dim : 0;
   std::array<WideNodal<Basis>, rows> B;
 
-  ShiftSums() {
+  CorrectionSums() {
     repeat<rows>([&](auto j) { clear<Basis>(B[j]); });
   }
 
@@ -34,19 +34,20 @@ struct ShiftSums {
 
 /// s_i; none as constructed.
 template <class Basis>
-struct Shift {
-  static constexpr int Dim = Basis::dim, rows = has_shift<Basis> ? Dim : 0;
+struct GradientCorrection {
+  static constexpr int Dim = Basis::dim, rows = has_correction<Basis> ? Dim : 0;
   static constexpr int size = rows * nodal_size<Basis>;  ///< of the numbers that store() writes
 
   std::array<Nodal<Basis>, rows> s;  ///< [1/m]
 
-  Shift() {
+  GradientCorrection() {
     repeat<rows>([&](auto j) { repeat<nodal_batches<Basis>>([&](auto b) { s[j][b] = Lane<Basis>(0.0); }); });
   }
 
   /// The mean gradient less that of the points, whose volume is Σ Ω_p.
   template <class Means>
-  Shift(const typename Basis::Cell&, const Means& mean, const ShiftSums<Basis>& sums, double per_volume) {
+  GradientCorrection(const typename Basis::Cell&, const Means& mean, const CorrectionSums<Basis>& sums,
+                     double per_volume) {
     repeat<rows>([&](auto j) {
       const auto of_points = total<Basis>(sums.B[j]);
       repeat<nodal_batches<Basis>>(
@@ -72,13 +73,13 @@ struct Shift {
 /// Gradients at points with B_i + s_i in place of B_i, for the s_i that an element has stored: of the field's
 /// components from Dim on, the displacements.
 template <class Basis>
-class ShiftedGradients {
+class CorrectedGradients {
   static constexpr int Dim = Basis::dim;
 
  public:
-  ShiftedGradients(const NodeRows<Basis>& motion, const double* s) {
+  CorrectedGradients(const NodeRows<Basis>& motion, const double* s) {
     using T = typename Row<2 * Dim>::value_type;
-    if constexpr (!has_shift<Basis>) return;
+    if constexpr (!has_correction<Basis>) return;
     repeat<Dim>([&](auto k) {
       alignas(64) double column[row_size<2 * Dim>];
       repeat<row_size<2 * Dim> / lanes_of<T>>([&](auto b) {
@@ -95,9 +96,9 @@ class ShiftedGradients {
   /// du_j/dx_k where the field is `here`.
   template <int j, int k, class Here, class Local>
   auto derivative(const Field<Basis, 2 * Dim>&, const Here& here, const Local&) const {
-    const auto unshifted = here.template derivative<k>(Dim + j);
-    if constexpr (has_shift<Basis>) return unshifted + decltype(unshifted)(sum_[j * Dim + k]);
-    return unshifted;
+    const auto uncorrected = here.template derivative<k>(Dim + j);
+    if constexpr (has_correction<Basis>) return uncorrected + decltype(uncorrected)(sum_[j * Dim + k]);
+    return uncorrected;
   }
 
  private:
@@ -108,7 +109,7 @@ class ShiftedGradients {
 // its own. With d from the one to the other in local coordinates, B_i(s + d) = B_i(s) + s_i.
 
 template <>
-struct ShiftSums<GridLinear<2>> {
+struct CorrectionSums<GridLinear<2>> {
   using Basis = GridLinear<2>;
   using T = PointBatch<2>;
   std::array<T, 2> Omega_s{T(0.0), T(0.0)};  ///< Σ Ω_p s_p
@@ -122,15 +123,15 @@ struct ShiftSums<GridLinear<2>> {
 };
 
 template <>
-struct Shift<GridLinear<2>> {
+struct GradientCorrection<GridLinear<2>> {
   using Basis = GridLinear<2>;
   static constexpr int size = 2;
 
   Vec<2> d{}, per_spacing{};
 
-  Shift() = default;
+  GradientCorrection() = default;
   template <class Means>
-  Shift(const Basis::Cell& cell, const Means&, const ShiftSums<Basis>& sums, double per_volume)
+  GradientCorrection(const Basis::Cell& cell, const Means&, const CorrectionSums<Basis>& sums, double per_volume)
       : per_spacing(cell.inverse()) {
     repeat<2>([&](auto j) { d[j] = 0.5 - xsimd::hadd(sums.Omega_s[j]) * per_volume; });
   }
@@ -150,11 +151,11 @@ struct Shift<GridLinear<2>> {
 };
 
 template <>
-class ShiftedGradients<GridLinear<2>> {
+class CorrectedGradients<GridLinear<2>> {
   using Basis = GridLinear<2>;
 
  public:
-  ShiftedGradients(const NodeRows<Basis>&, const double* d) : d_{d[0], d[1]} {}
+  CorrectedGradients(const NodeRows<Basis>&, const double* d) : d_{d[0], d[1]} {}
 
   template <int j, int k, class Here, class T>
   T derivative(const Field<Basis, 4>& motion, const Here&, const std::array<T, 2>& s) const {

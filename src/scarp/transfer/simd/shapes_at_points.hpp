@@ -6,10 +6,10 @@
 
 #include "scarp/mesh/basis.hpp"
 #include "scarp/mesh/grid_bases.hpp"
-#include "scarp/transfer/field.hpp"
 #include "scarp/transfer/local.hpp"
-#include "scarp/transfer/spline_functions.hpp"
-#include "scarp/transfer/wide.hpp"
+#include "scarp/transfer/simd/fields.hpp"
+#include "scarp/transfer/simd/node_lanes.hpp"
+#include "scarp/transfer/simd/spline_functions.hpp"
 
 namespace scarp::transfer {
 
@@ -21,7 +21,7 @@ struct Shapes {
 };
 
 /// What a basis needs once per element; with(points, p, f) then calls f(at) for the points of some lanes, where at(l)
-/// are the Shapes of point l (and l + 1). In general: with a point in each lane, and turned.
+/// are the Shapes of point l (and l + 1). In general: with a point in each lane, and rotated.
 template <class Basis>
 class ShapesAtPoints {
   static constexpr int Dim = Basis::dim, K = Basis::nodes;
@@ -37,15 +37,15 @@ class ShapesAtPoints {
     std::array<T, K> N;
     std::array<std::array<T, Dim>, K> B;
     cell_.gradients(local_coordinates<Basis>(cell_, points, p), N, B);
-    Turned all;
-    turn([&](int i) { return N[i]; }, all.N);
-    for (int d = 0; d < Dim; ++d) turn([&](int i) { return B[i][d]; }, all.B[d]);
+    Transposed all;
+    to_lanes_of_nodes([&](int i) { return N[i]; }, all.N);
+    for (int d = 0; d < Dim; ++d) to_lanes_of_nodes([&](int i) { return B[i][d]; }, all.B[d]);
     f(all);
   }
 
  private:
   using OfEach = std::array<Nodal<Basis>, lanes_of<T>>;
-  struct Turned {
+  struct Transposed {
     OfEach N;
     std::array<OfEach, Dim> B;
 
@@ -61,7 +61,7 @@ class ShapesAtPoints {
   };
 
   template <class From>
-  static void turn(From&& from, OfEach& to) {
+  static void to_lanes_of_nodes(From&& from, OfEach& to) {
     constexpr int W = lanes_of<T>;
     static_assert(lanes_of<Lane<Basis>> == W);
     for (int b = 0; b < nodal_batches<Basis>; ++b) {

@@ -108,9 +108,9 @@ inline void transpose(std::array<T, T::size>& rows) {
   double lanes[T::size][T::size];
   for (std::size_t i = 0; i < T::size; ++i) rows[i].store_unaligned(lanes[i]);
   for (std::size_t i = 0; i < T::size; ++i) {
-    double turned[T::size];
-    for (std::size_t j = 0; j < T::size; ++j) turned[j] = lanes[j][i];
-    rows[i] = T::load_unaligned(turned);
+    double rotated[T::size];
+    for (std::size_t j = 0; j < T::size; ++j) rotated[j] = lanes[j][i];
+    rows[i] = T::load_unaligned(rotated);
   }
 }
 

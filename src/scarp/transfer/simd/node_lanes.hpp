@@ -8,7 +8,7 @@
 #include "scarp/mesh/basis.hpp"
 #include "scarp/points/lanes.hpp"
 #include "scarp/points/points.hpp"
-#include "scarp/transfer/batches.hpp"
+#include "scarp/transfer/simd/batches.hpp"
 
 namespace scarp::transfer {
 
@@ -178,7 +178,7 @@ inline T products(const std::array<T, 3>& f, std::array<T, 3>& others) {
 
 /// The number of local node (i + k) mod K in the place of node i, for every node i of each point; 0 ≤ k < K.
 template <int K, int k, class T, std::size_t n>
-inline std::array<T, n> turned(const std::array<T, n>& x) {
+inline std::array<T, n> rotated(const std::array<T, n>& x) {
   constexpr int W = lanes_of<T>;
   if constexpr (k == 0) return x;
   [[maybe_unused]] constexpr int four = k % 4 | (1 + k) % 4 << 2 | (2 + k) % 4 << 4 | (3 + k) % 4 << 6,

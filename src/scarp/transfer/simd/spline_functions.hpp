@@ -4,7 +4,7 @@
 #include <array>
 
 #include "scarp/mesh/grid_bases.hpp"
-#include "scarp/transfer/wide.hpp"
+#include "scarp/transfer/simd/node_lanes.hpp"
 
 namespace scarp::transfer {
 

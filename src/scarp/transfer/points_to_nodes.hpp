@@ -4,40 +4,12 @@
 
 #include <array>
 
-#include "scarp/transfer/at_nodes.hpp"
+#include "scarp/transfer/mass_matrix.hpp"
+#include "scarp/transfer/node_values.hpp"
 #include "scarp/transfer/quadrature.hpp"
+#include "scarp/transfer/simd/shapes_at_points.hpp"
 
 namespace scarp::transfer {
-
-/// What a node receives in step 1, as numbers beside each other: m (eq. 1), p (eq. 2), F_int (eq. 4); in space one more
-/// that is not used.
-template <int Dim>
-inline constexpr int node_sums = Dim == 2 ? 5 : 8;
-
-/// Do the elements keep M_ij = Σ m_p N_i N_j? With few nodes that is less work than to go through the points again.
-inline constexpr int most_nodes_with_mass_matrix = 8;
-template <class Basis>
-inline constexpr bool keeps_mass_matrix = Basis::nodes <= most_nodes_with_mass_matrix;
-
-/// M_ij is symmetric: it is kept in rows of M_i,i+k (indices modulo the number of nodes) for k = 0 to half of that
-/// number; where that is even the last row has each number twice, and only half of it is kept.
-constexpr int mass_matrix_rows(int nodes) {
-  return nodes <= most_nodes_with_mass_matrix ? nodes / 2 + 1 : 0;
-}
-/// Numbers that are kept, in rows of `padded`.
-constexpr std::size_t mass_matrix_size(int nodes, std::size_t padded) {
-  const auto rows = static_cast<std::size_t>(mass_matrix_rows(nodes));
-  return nodes % 2 == 0 && rows > 0 ? (rows - 1) * padded + padded / 2 : rows * padded;
-}
-
-/// Where M_ij of an element is in what it keeps.
-template <class Basis>
-constexpr int mass_matrix_place(int i, int j) {
-  constexpr int K = Basis::nodes;
-  const int k = (j - i + K) % K;
-  if (2 * k > K) return mass_matrix_place<Basis>(j, i);
-  return k * nodal_size<Basis> + (2 * k == K ? i % (K / 2) : i);
-}
 
 /// Sums over an element's points in step 1.
 template <class Basis>
@@ -49,9 +21,9 @@ struct ElementSums {
   OfNodes m;                                       ///< Σ m_p N_i
   std::array<OfNodes, dim> p;                      ///< Σ m_p v_p N_i
   std::array<OfNodes, dim> F;                      ///< Σ B_iᵀ σ_p Ω_p
-  ShiftSums<Basis> shift;                          ///< what s_i follows from
+  CorrectionSums<Basis> correction;                ///< what s_i follows from
   std::array<OfNodes, Hoop<Basis>{}.size()> hoop;  ///< Σ Ω_p N_i / r
-  std::array<OfNodes, rows> M;                     ///< Σ m_p N_i N_{i+k}
+  MassMatrixSums<Basis> M;                         ///< Σ m_p N_i N_{i+k}
   OfPoints m_v2 = OfPoints(0.0);                   ///< Σ m_p |v_p|²
   OfPoints Omega = OfPoints(0.0);                  ///< Σ Ω_p
   OfPoints Omega_mean = OfPoints(0.0);             ///< Σ Ω_p s_p, of mean stresses that were left out of the others
@@ -71,11 +43,6 @@ struct ElementSums {
     repeat<sym_size<dim>>([&](auto c) { Omega_sigma[c] = OfPoints(0.0); });
   }
 };
-
-/// Directions that a mean of stress or strain is taken over: those of the plane, of space, or all three of a body of
-/// revolution.
-template <class Basis>
-inline constexpr int mean_directions = is_axisymmetric<Basis> ? 3 : Basis::dim;
 
 /// Places x_i of an element's nodes, a node in each lane, for the parts of momentum that the points of an affine scheme
 /// carry.
@@ -118,7 +85,7 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Places& p
     repeat<Dim>([&](auto j) { v2 = fma(p.load(points.v[j]), p.load(points.v[j]), v2); });
     sums.m_v2 = fma(p.load(points.mass), v2, sums.m_v2);
     sums.Omega += volume;
-    sums.shift.add_batch(shapes, points, p, volume);
+    sums.correction.add_batch(shapes, points, p, volume);
     auto felt_here = make_array<components>([&](auto c) {
       // σ_zz does no work in plane strain. Mandel components of shear are √2 times the stress.
       constexpr bool used = Dim == 3 || c != 2 || is_axisymmetric<Basis>;
@@ -170,7 +137,7 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Places& p
             });
           });
         });
-        sums.shift.add(Omega, here);
+        sums.correction.add(Omega, here);
         if constexpr (keeps_means<Basis>) {
           if (apart) {
             const W Omega_share = volume_of_mean_of.of(l);
@@ -189,38 +156,12 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Places& p
           });
         }
         repeat<ElementSums<Basis>::rows>([&](auto k) {
-          const auto N = turned<Basis::nodes, k>(here.N);
+          const auto N = rotated<Basis::nodes, k>(here.N);
           repeat<nodal_batches<Basis>>([&](auto b) { sums.M[k][b] = fma(mN[b], N[b], sums.M[k][b]); });
         });
       });
     });
   });
-}
-
-template <class Basis>
-inline void store_mass_matrix(const ElementSums<Basis>& sums, double* M) {
-  constexpr int K = Basis::nodes, W = lanes_of<Lane<Basis>>;
-  repeat<ElementSums<Basis>::rows>([&](auto k) {
-    const auto row = total<Basis>(sums.M[k]);
-    double* to = M + k * nodal_size<Basis>;
-    if constexpr (2 * k < K) {
-      store_nodal<Basis>(row, to);
-    } else if constexpr (K == W) {
-      store_first(row[0], to, K / 2);
-    } else {
-      repeat<nodal_batches<Basis> / 2>([&](auto b) { row[b].store_unaligned(to + b * W); });
-    }
-  });
-}
-
-/// Batch b of row k.
-template <class Basis, int k, int b>
-inline Lane<Basis> load_mass_matrix(const double* M) {
-  constexpr int K = Basis::nodes, W = lanes_of<Lane<Basis>>;
-  const double* from = M + k * nodal_size<Basis>;
-  if constexpr (2 * k < K) return Lane<Basis>::load_unaligned(from + b * W);
-  if constexpr (K == W) return load_twice<Lane<Basis>>(from);
-  return Lane<Basis>::load_unaligned(from + b % std::max(1, nodal_batches<Basis> / 2) * W);
 }
 
 /// F_i^int of an element whose points are used by a quadrature of w and s_i; mean stresses that were summed up apart
@@ -232,8 +173,8 @@ inline std::array<Nodal<Basis>, Basis::dim> internal_force(const ElementSums<Bas
   using T = Lane<Basis>;
   const auto Omega_sigma = make_array<sym_size<Dim>>([&](auto c) { return xsimd::hadd(sums.Omega_sigma[c]); });
   auto F = totals<Basis>(sums.F);
-  quadrature.shift.add_force(Omega_sigma, F);
-  if constexpr (has_shift<Basis> || keeps_means<Basis>) {
+  quadrature.correction.add_force(Omega_sigma, F);
+  if constexpr (has_correction<Basis> || keeps_means<Basis>) {
     if (quadrature.means) {
       const T mean(xsimd::hadd(sums.Omega_mean));
       repeat<nodal_batches<Basis>>([&](auto b) {
@@ -243,7 +184,7 @@ inline std::array<Nodal<Basis>, Basis::dim> internal_force(const ElementSums<Bas
     }
   }
   repeat<nodal_batches<Basis>>([&](auto b) {
-    if constexpr (is_axisymmetric<Basis>) F[0][b] = fma(quadrature.hoop_shift[0][b], T(Omega_sigma[2]), F[0][b]);
+    if constexpr (is_axisymmetric<Basis>) F[0][b] = fma(quadrature.hoop_correction[0][b], T(Omega_sigma[2]), F[0][b]);
     repeat<Dim>([&](auto j) { F[j][b] *= T(quadrature.weight); });
   });
   return F;
