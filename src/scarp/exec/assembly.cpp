@@ -29,10 +29,12 @@ void Assembly::rebuild(const Mesh<Dim>& mesh, const ActiveElements& active) {
   of_place_.clear();
   chunk_begin_.clear();
   local_.resize(static_cast<std::size_t>(active.size()) * row_);
+  nodes_.resize(local_.size());
   int places = 0;
   for (int slot = 0; slot < active.size(); ++slot) {
     if (slot % chunk_ == 0) chunk_begin_.push_back(places);
     int* local = local_.data() + static_cast<std::size_t>(slot) * row_;
+    int* nodes = nodes_.data() + static_cast<std::size_t>(slot) * row_;
     for (const int n : mesh.element_nodes(active.element[slot])) {
       auto& latest = latest_[n];
       if (latest.position == 0) {
@@ -44,6 +46,7 @@ void Assembly::rebuild(const Mesh<Dim>& mesh, const ActiveElements& active) {
         of_place_.push_back(latest.position - 1);
       }
       *local++ = latest.place - 1;
+      *nodes++ = latest.position - 1;
     }
   }
   chunk_begin_.push_back(places);
@@ -57,7 +60,7 @@ void Assembly::rebuild(const Mesh<Dim>& mesh, const ActiveElements& active) {
 
 void Assembly::reserve(std::size_t elements, std::size_t row) {
   const std::size_t rows = elements * row;
-  for (auto* list : {&local_, &node_, &place_, &of_place_}) list->reserve(rows);
+  for (auto* list : {&local_, &nodes_, &node_, &place_, &of_place_}) list->reserve(rows);
   begin_.reserve(rows + 2);
   chunk_begin_.reserve(elements / least_chunk + 2);
 }

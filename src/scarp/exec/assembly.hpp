@@ -30,6 +30,9 @@ class Assembly {
   /// The places of the local nodes of the active element in a slot.
   const int* places_of(int slot) const { return local_.data() + static_cast<std::size_t>(slot) * row_; }
 
+  /// The numbers of these local nodes among the active nodes.
+  const int* nodes_of(int slot) const { return nodes_.data() + static_cast<std::size_t>(slot) * row_; }
+
   /// f(place) for each place of active node k: step 2 of the report, in a fixed order.
   template <class F>
   void gather(int k, F&& f) const {
@@ -50,6 +53,7 @@ class Assembly {
   int row_ = 0, chunk_ = 1;
   std::vector<int> chunk_begin_;           ///< of each chunk: its first place
   std::vector<int> local_;                 ///< rows of the active elements: places of their local nodes
+  std::vector<int> nodes_;                 ///< rows of the active elements: their local nodes among the active ones
   std::vector<int> node_, begin_, place_;  ///< active nodes, and their places
   std::vector<int> of_place_;              ///< scratch, of each place: its active node
   struct Latest {

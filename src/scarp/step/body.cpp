@@ -99,6 +99,13 @@ void make_room(Body<Dim>& body) {
   buffers.mass_matrix.reserve(elements * mass_matrix_row(body.assembly.row()));
   buffers.sums.reserve(places * transfer::node_sums<Dim>);
   buffers.momentum.reserve(places * transfer::momentum_size<Dim>);
+  const auto nodes = std::min(places, body.mesh->nodes.size());
+  buffers.node.reserve(nodes);
+  buffers.motion.reserve(nodes);
+  buffers.a_dt.reserve(nodes);
+  buffers.half_path.reserve(nodes);
+  buffers.resistance.reserve(nodes);
+  if (!body.patches.empty()) buffers.bounds.stiffness.reserve(nodes);
   buffers.books.reserve(places / element_chunk + 1);
 }
 
@@ -183,7 +190,8 @@ void rebuild(Body<Dim>& body) {
   auto& buffers = body.buffers;
   const auto& active = body.active;
   body.assembly.rebuild(*body.mesh, active);
-  const auto slots = static_cast<std::size_t>(active.size()), places = body.assembly.places();
+  const auto slots = static_cast<std::size_t>(active.size()), places = body.assembly.places(),
+             nodes = static_cast<std::size_t>(body.assembly.size());
   buffers.inside.resize(slots);
   for (int slot = 0; slot < active.size(); ++slot) {
     const auto around = body.mesh->elements_around(active.element[slot]);
@@ -197,7 +205,7 @@ void rebuild(Body<Dim>& body) {
     buffers.patch_share.assign(slots, {});
     buffers.bounds.filled.assign(slots, 0.0);
     buffers.bounds.least_per_mass.assign(slots, 0.0);
-    buffers.bounds.stiffness.resize(body.mesh->nodes.size());
+    buffers.bounds.stiffness.resize(nodes);
     buffers.bounds.age = buffers.bounds.every;
   }
   buffers.correction.resize(slots * buffers.correction_row);
@@ -205,11 +213,11 @@ void rebuild(Body<Dim>& body) {
   buffers.mass_matrix.resize(slots * mass_matrix_row(body.assembly.row()));
   buffers.sums.resize(places * transfer::node_sums<Dim>);
   buffers.momentum.resize(places * transfer::momentum_size<Dim>);
-  buffers.node.resize(body.mesh->nodes.size());
-  buffers.motion.resize(body.mesh->nodes.size());
-  buffers.a_dt.resize(body.mesh->nodes.size());
-  buffers.half_path.resize(body.mesh->nodes.size());
-  buffers.resistance.resize(body.mesh->nodes.size());
+  buffers.node.resize(nodes);
+  buffers.motion.resize(nodes);
+  buffers.a_dt.resize(nodes);
+  buffers.half_path.resize(nodes);
+  buffers.resistance.resize(nodes);
 }
 
 }  // namespace

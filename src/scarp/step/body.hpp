@@ -55,7 +55,7 @@ struct NodeBounds {
   // Of each slot:
   Column filled;          ///< w Σ Ω_p
   Column least_per_mass;  ///< of PointIncrements::per_mass
-  // Of every node of the mesh, valid for active ones:
+  // Of each active node:
   Column stiffness;  ///< ½ G_n / m_n
 };
 
@@ -77,14 +77,15 @@ struct Buffers {
   // Of each place of the assembly:
   Column sums;      ///< transfer::node_sums numbers
   Column momentum;  ///< up to transfer::momentum_size numbers
-  // Of every node of the mesh, valid for active ones, which alone cost memory:
-  ZeroPages<Node<Dim>> node;
-  ZeroPages<transfer::Motion<Dim>> motion;
-  ZeroPages<Vec<Dim>> a_dt;  ///< a dt; where there is a PIC share, with P of held components only
-  ZeroPages<Vec<Dim>>
+  // Of each active node:
+  std::vector<Node<Dim>> node;
+  std::vector<transfer::Motion<Dim>> motion;
+  std::vector<Vec<Dim>> a_dt;  ///< a dt; where there is a PIC share, with P of held components only
+  std::vector<Vec<Dim>>
       half_path;  ///< with P, of nodes acted on: ½ P v^t dt, half of what forces work on; of a held component its du
-  ZeroPages<Resistance<Dim>> resistance;  ///< with damping, and where nodes are not free
-  Column full_volume;                     ///< Σ V_e / K_e of the K_e nodes of elements e; where there are simplices
+  std::vector<Resistance<Dim>> resistance;  ///< with damping, and where nodes are not free
+  // Of every node of the mesh, where there are simplices:
+  Column full_volume;                            ///< Σ V_e / K_e of the K_e nodes of elements e
   std::vector<PointIncrements<Dim>> increments;  ///< of each thread
   std::vector<StepBooks<Dim>> books;             ///< of each chunk
   // Elements whose quadrature changes with the points that do (reweighted.hpp), and which of all these are.

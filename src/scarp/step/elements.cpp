@@ -114,7 +114,7 @@ SCARP_FLATTEN void add_momentum_of_points(Body<Basis::dim>& body, int slot, int 
   const typename Basis::Cell cell(*body.mesh, e);
   const int* places = body.assembly.places_of(slot);
   double* momentum = body.buffers.momentum.data();
-  const auto rows = motion_of_nodes<Basis>(body, e, from);
+  const auto rows = motion_of_nodes<Basis>(body, slot, from);
   for (const auto& block : body.blocks) {
     const PointRange range = points_of(block, slot);
     if (from == 0) {
@@ -166,11 +166,12 @@ unsigned still_inside(const typename Basis::Cell& cell, const Lanes& p, const st
 /// Have the nodes of an element masses that differ by no more than a factor of five, in simplices over those of a full
 /// mesh? A last point that lingers beyond a free edge would leave a node with next to no mass, or less than none.
 template <class Basis>
-bool nodes_are_full(const Body<Basis::dim>& body, int e) {
+bool nodes_are_full(const Body<Basis::dim>& body, int slot) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
-  for (const int n : body.mesh->element_nodes(e)) {
-    double m = body.buffers.node[n].m;
-    if constexpr (is_simplex<Basis>) m /= body.buffers.full_volume[n];
+  const int* nodes = body.assembly.nodes_of(slot);
+  for (int i = 0; i < Basis::nodes; ++i) {
+    double m = body.buffers.node[nodes[i]].m;
+    if constexpr (is_simplex<Basis>) m /= body.buffers.full_volume[body.assembly.node(nodes[i])];
     least = std::min(least, m);
     most = std::max(most, m);
   }
@@ -181,10 +182,11 @@ bool nodes_are_full(const Body<Basis::dim>& body, int e) {
 /// mesh goes on. Each change of element weights the stored energy of two elements anew; points that lie on a line
 /// between elements and cross it to and fro would bring in more with each vibration (docs/theory.md, "Late leaving").
 template <class Basis, class T>
-unsigned linger(const Body<Basis::dim>& body, const typename Basis::Cell& cell, int e,
+unsigned linger(const Body<Basis::dim>& body, const typename Basis::Cell& cell, int slot,
                 const std::array<T, Basis::dim>& xi, double lateness) {
   if constexpr (Basis::has_domains) return 0;  // its functions are continuous, and hold within the cell only
-  if (lateness == 0 || !nodes_are_full<Basis>(body, e)) return 0;
+  if (lateness == 0 || !nodes_are_full<Basis>(body, slot)) return 0;
+  const int e = body.active.element[slot];
   std::array<double, Basis::sides> tolerance;
   for (int side = 0; side < Basis::sides; ++side)
     tolerance[side] = body.locator.ends_at(e, side) ? body.locator.tolerance() : lateness;
@@ -240,7 +242,7 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
                                const MoveRules& rules, PointIncrements<Basis::dim>& increments, int at,
                                Averaged averaged, MotionBooks<Basis::dim>& motion, StepBooks<Basis::dim>& books) {
   const typename Basis::Cell cell(*body.mesh, e);
-  transfer::ElementMotion<Basis> element{motion_of_nodes<Basis>(body, e),
+  transfer::ElementMotion<Basis> element{motion_of_nodes<Basis>(body, slot),
                                          {},
                                          body.buffers.correction.data() + slot * body.buffers.correction_row,
                                          body.buffers.weight[slot],
@@ -253,10 +255,10 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
     element.hoop_correction = body.buffers.hoop_correction.data() + slot * padded_row(body.assembly.row());
   }
   transfer::Motion<Basis::dim> mean_motion;
-  if (rules.mends_massless) mend_massless<Basis>(body, e, element.motion, mean_motion);
+  if (rules.mends_massless) mend_massless<Basis>(body, slot, element.motion, mean_motion);
   if constexpr (pic) {
-    const int* n = body.mesh->element_nodes(e).data();
-    for (int i = 0; i < Basis::nodes; ++i) element.a_dt[i] = body.buffers.a_dt[n[i]].data();
+    const int* k = body.assembly.nodes_of(slot);
+    for (int i = 0; i < Basis::nodes; ++i) element.a_dt[i] = body.buffers.a_dt[k[i]].data();
   }
   if (averaged) element.mean_dilation = mean_dilation<Basis>(body, slot, cell, element.motion);
   const std::int64_t changed = books.changed_element;
@@ -265,7 +267,7 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
       [&](const auto& p, const auto& x, const auto& before) {
         const unsigned inside =
             still_inside<Basis>(cell, p, x, before, body.locator.tolerance(), block.points,
-                                [&](const auto& xi) { return linger<Basis>(body, cell, e, xi, rules.lateness); });
+                                [&](const auto& xi) { return linger<Basis>(body, cell, slot, xi, rules.lateness); });
         motion.stayed += std::popcount(inside);
         if (inside != first_bits(p.count())) [[unlikely]]
           find_new_elements(body.locator, e, p, inside, block.points, books);
@@ -337,17 +339,16 @@ template <int n, int Dim>
 void sum_with_mass_matrix(Body<Dim>& body, int from, StepBooks<Dim>& books) {
   for_each_chunk(body, body.assembly.chunk(), books, [&](int first, int last, StepBooks<Dim>&) {
     clear_places(body, first, body.buffers.momentum, transfer::place_size<n>);
-    const Mesh<Dim>& mesh = *body.mesh;
     const transfer::Motion<Dim>* motion = body.buffers.motion.data();
     const double* matrices = body.buffers.mass_matrix.data();
-    const int *places = body.assembly.places_of(0), row = body.assembly.row();
+    const int *places = body.assembly.places_of(0), *nodes = body.assembly.nodes_of(0), row = body.assembly.row();
     const std::size_t size = mass_matrix_row(row);
     double* momentum = body.buffers.momentum.data();
     for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
       if constexpr (transfer::keeps_mass_matrix<Basis>) {
         const double* M = matrices + slot * size;
-        const int* n_i = mesh.element_nodes(e).data();
-        const auto w = make_array<Basis::nodes>([&](auto i) { return motion[n_i[i]].row.data(); });
+        const int* k_i = nodes + slot * row;
+        const auto w = make_array<Basis::nodes>([&](auto i) { return motion[k_i[i]].row.data(); });
         if constexpr (n == Dim) {
           transfer::add_momentum<Basis, n>(M, w, places + slot * row, momentum);
         } else {

@@ -65,17 +65,16 @@ void bound_by_nodes(Body<Dim>& body, StepBooks<Dim>& books) {
   exec::sum_over_chunks(
       body.assembly.size(), node_chunk, buffers.books, books, [&](int first, int last, StepBooks<Dim>&) {
         for (int k = first; k < last; ++k) {
-          const int n = body.assembly.node(k);
-          buffers.bounds.stiffness[n] = 0.5 * gathered<1>(body, k, buffers.momentum)[0] * buffers.node[n].per_mass;
+          buffers.bounds.stiffness[k] = 0.5 * gathered<1>(body, k, buffers.momentum)[0] * buffers.node[k].per_mass;
         }
       });
   exec::sum_over_chunks(
       body.active.size(), element_chunk, buffers.books, books, [&](int first, int last, StepBooks<Dim>&) {
         with_basis<Dim>(*body.mesh, body.active.element.data(), first, last, [&]<class Basis>(Basis, int slot, int e) {
           if constexpr (is_simplex<Basis>) {
-            const int* n = body.mesh->element_nodes(e).data();
+            const int* k = body.assembly.nodes_of(slot);
             transfer::NodeRows<Basis> rows;
-            for (int i = 0; i < Basis::nodes; ++i) rows[i] = &buffers.bounds.stiffness[n[i]];
+            for (int i = 0; i < Basis::nodes; ++i) rows[i] = &buffers.bounds.stiffness[k[i]];
             const typename Basis::Cell cell(*body.mesh, e);
             buffers.bounds.least_per_mass[slot] = largest_at_points<Basis>(body, cell, slot, rows);
           }

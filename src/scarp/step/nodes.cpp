@@ -44,15 +44,16 @@ struct ForceAndAcceleration {
 /// Local damping of the force F against the motion, and the conditions: changes a = F / m, notes what is held and the
 /// resistance; F becomes what of it is not balanced.
 template <int Dim>
-[[gnu::noinline]] ForceAndAcceleration<Dim> resisted_by(Body<Dim>& body, int n, double dt, const StepSettings& settings,
+[[gnu::noinline]] ForceAndAcceleration<Dim> resisted_by(Body<Dim>& body, int k, double dt, const StepSettings& settings,
                                                         ForceAndAcceleration<Dim> of) {
   auto& [F, a] = of;
+  const int n = body.assembly.node(k);
   const double damping = settings.damping;
   // A wall takes the force along its normal: none of it is out of balance, and friction must not feel it damped.
   const bool pressed = settings.scheme.wall == WallRule::by_motion &&
-                       reaches_wall<Dim>(body.conditions, n, body.buffers.node[n].v, dt, a);
-  Node<Dim>& node = body.buffers.node[n];
-  Resistance<Dim>& resistance = body.buffers.resistance[n];
+                       reaches_wall<Dim>(body.conditions, n, body.buffers.node[k].v, dt, a);
+  Node<Dim>& node = body.buffers.node[k];
+  Resistance<Dim>& resistance = body.buffers.resistance[k];
   resistance = {};
   for (int j = 0; j < Dim; ++j) {
     if (damping != 0 && node.v[j] != 0 && !(pressed && j == body.conditions.normal[n])) {
@@ -80,20 +81,21 @@ template <int Dim>
   return of;
 }
 
-/// The conditions on a velocity, or a displacement, of node n.
+/// The conditions on a velocity, or a displacement, of active node k.
 template <int Dim>
-[[gnu::noinline]] Vec<Dim> constrained(const Body<Dim>& body, int n, const Scheme& scheme, Vec<Dim> v) {
-  constrain_velocity<Dim>(body.conditions, scheme.wall, n, body.buffers.node[n].held, v);
+[[gnu::noinline]] Vec<Dim> constrained(const Body<Dim>& body, int k, const Scheme& scheme, Vec<Dim> v) {
+  constrain_velocity<Dim>(body.conditions, scheme.wall, body.assembly.node(k), body.buffers.node[k].held, v);
   return v;
 }
 
 template <int Dim>
-[[gnu::noinline]] void book_work_of_others(Body<Dim>& body, int n, const StepSettings& settings, unsigned components,
+[[gnu::noinline]] void book_work_of_others(Body<Dim>& body, int k, const StepSettings& settings, unsigned components,
                                            Vec<Dim> path, StepBooks<Dim>& books) {
-  const Node<Dim>& node = body.buffers.node[n];
+  const Node<Dim>& node = body.buffers.node[k];
+  const int n = body.assembly.node(k);
   if (body.sides.slows(n)) body.sides.slow_down(n, path);
   if (is_resisted(body, n, settings.damping)) {
-    const auto& resistance = body.buffers.resistance[n];
+    const auto& resistance = body.buffers.resistance[k];
     for (int j = 0; j < Dim; ++j) {
       if (!(components >> j & 1u)) continue;
       books.dissipation_damping -= resistance.F_damping[j] * path[j];
@@ -104,19 +106,19 @@ template <int Dim>
   const unsigned set = set_components(body.conditions, settings.scheme.wall, n, node.held) | ~components;
   if (body.release.active()) books.work_release += work_of<Dim>(body.release, n, node.m, set, path);
   if (!body.sides.holds(n)) return;
-  const auto work = body.sides.move(n, node.m, set, body.buffers.resistance[n].F_dashpot, path);
+  const auto work = body.sides.move(n, node.m, set, body.buffers.resistance[k].F_dashpot, path);
   books.work_boundary += work.held;
   books.dissipation_absorbing += work.dashpot;
   books.stored_sides += work.spring;
 }
 
-/// Books the work of forces on node n that are no part of the body's own, in some of its components, on the path that
-/// these make (before γ of sides).
+/// Books the work of forces on active node k that are no part of the body's own, in some of its components, on the path
+/// that these make (before γ of sides).
 template <int Dim>
-void book_work(Body<Dim>& body, int n, const StepSettings& settings, unsigned components, const Vec<Dim>& path,
+void book_work(Body<Dim>& body, int k, const StepSettings& settings, unsigned components, const Vec<Dim>& path,
                StepBooks<Dim>& books) {
-  if (body.buffers.node[n].acted_on) [[unlikely]]
-    book_work_of_others<Dim>(body, n, settings, components, path, books);
+  if (body.buffers.node[k].acted_on) [[unlikely]]
+    book_work_of_others<Dim>(body, k, settings, components, path, books);
 }
 constexpr unsigned all_components = ~0u;
 
@@ -124,26 +126,27 @@ constexpr unsigned all_components = ~0u;
 /// of PIC: here Σ ½ m_n (ṽ² − v^t²), which forces and holds have made of what the points brought, and by the points Σ ½
 /// m_p (v_p^t² − v_p^{t+dt}²).
 template <int Dim>
-void take_velocity(Body<Dim>& body, int n, const Vec<Dim>& v_next, double dt, const StepSettings& settings,
+void take_velocity(Body<Dim>& body, int k, const Vec<Dim>& v_next, double dt, const StepSettings& settings,
                    StepBooks<Dim>& books) {
-  const Node<Dim>& node = body.buffers.node[n];
+  const Node<Dim>& node = body.buffers.node[k];
   Vec<Dim> path;
   for (int j = 0; j < Dim; ++j) {
-    body.buffers.motion[n].dv(j) = v_next[j];
-    body.buffers.a_dt[n][j] = 0;
+    body.buffers.motion[k].dv(j) = v_next[j];
+    body.buffers.a_dt[k][j] = 0;
     path[j] = 0.5 * (node.v[j] + v_next[j]) * dt;
     books.dissipation_pic += 0.5 * node.m * (v_next[j] * v_next[j] - node.v[j] * node.v[j]);
   }
-  book_work<Dim>(body, n, settings, all_components, path, books);
+  book_work<Dim>(body, k, settings, all_components, path, books);
 }
 
 /// Step 3: a_n = (F_grav − F_int) / m_n (eq. 5), and what the scheme makes of it (scheme.hpp): c, by which the
 /// velocities of points change (step 4), or a dt and ṽ, of which a scheme of two terms forms c. Returns the force that
 /// is not balanced.
 template <int Dim>
-Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const StepSettings& settings,
+Vec<Dim> accelerate(Body<Dim>& body, int k, const double* sum, double dt, const StepSettings& settings,
                     StepBooks<Dim>& books) {
-  Node<Dim>& node = body.buffers.node[n];
+  const int n = body.assembly.node(k);
+  Node<Dim>& node = body.buffers.node[k];
   const Scheme& scheme = settings.scheme;
   const double m = sum[0], per_mass = 1 / m, *p = sum + 1, *F_int = p + Dim;
   Vec<Dim> F, a;
@@ -160,19 +163,19 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
   const bool resisted = is_resisted(body, n, settings.damping);
   node.acted_on = resisted || body.release.active() || body.sides.active();
   if (resisted) [[unlikely]] {
-    const auto left = resisted_by<Dim>(body, n, dt, settings, {F, a});
+    const auto left = resisted_by<Dim>(body, k, dt, settings, {F, a});
     F = left.F;
     a = left.a;
   }
-  auto& motion = body.buffers.motion[n];
+  auto& motion = body.buffers.motion[k];
   for (int j = 0; j < Dim; ++j) motion.dv(j) = a[j] * dt;
   if (scheme.flip == 1 && !scheme.two_terms) return F;
   Vec<Dim> v_next;
   for (int j = 0; j < Dim; ++j) v_next[j] = fused(a[j], dt, node.v[j]);
   if (resisted) [[unlikely]]
-    v_next = constrained<Dim>(body, n, scheme, v_next);
+    v_next = constrained<Dim>(body, k, scheme, v_next);
   if (scheme.affine) {
-    take_velocity<Dim>(body, n, v_next, dt, settings, books);
+    take_velocity<Dim>(body, k, v_next, dt, settings, books);
   } else if (scheme.two_terms) {
     for (int j = 0; j < Dim; ++j) motion.du(j) = v_next[j];
     if (resisted && body.sides.slows(n)) [[unlikely]] {
@@ -184,27 +187,27 @@ Vec<Dim> accelerate(Body<Dim>& body, int n, const double* sum, double dt, const 
     if (node.held != 0) [[unlikely]] {
       for (int j = 0; j < Dim; ++j) {
         if (!(node.held >> j & 1u)) continue;
-        body.buffers.a_dt[n][j] = a[j] * dt;
+        body.buffers.a_dt[k][j] = a[j] * dt;
         motion.dv(j) = 0;  // what holds a node is no part of P
       }
     }
   } else {
     for (int j = 0; j < Dim; ++j) {
-      body.buffers.a_dt[n][j] = a[j] * dt;
+      body.buffers.a_dt[k][j] = a[j] * dt;
       motion.dv(j) = scheme::change_of_velocity(scheme.flip, a[j], dt, v_next[j]);
     }
   }
   return F;
 }
 
-/// f(node, its number, M w) of the active nodes with mass, where M w are the n numbers that were summed up for each.
+/// f(node, its number among the active ones, M w) of the active nodes with mass, where M w are the n numbers that were
+/// summed up for each.
 template <int n, int Dim, class F>
 void with_sums(const Body<Dim>& body, int first, int last, F&& f) {
   for (int k = first; k < last; ++k) {
-    const int number = body.assembly.node(k);
-    const Node<Dim>& node = body.buffers.node[number];
+    const Node<Dim>& node = body.buffers.node[k];
     if (node.m < body.least_mass) continue;
-    f(node, number, gathered<transfer::place_size<n>>(body, k, body.buffers.momentum));
+    f(node, k, gathered<transfer::place_size<n>>(body, k, body.buffers.momentum));
   }
 }
 
@@ -215,16 +218,15 @@ void accelerate_nodes(Body<Dim>& body, double dt, const StepSettings& settings, 
   for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>& part) {
     double unbalanced = 0, mass = 0;
     for (int k = first; k < last; ++k) {
-      const int n = body.assembly.node(k);
       const auto sum = gathered<transfer::node_sums<Dim>>(body, k, body.buffers.sums);
       if (sum[0] < body.least_mass) {
-        body.buffers.node[n] = {};
-        body.buffers.motion[n] = {};
-        body.buffers.a_dt[n] = {};
+        body.buffers.node[k] = {};
+        body.buffers.motion[k] = {};
+        body.buffers.a_dt[k] = {};
         ++part.massless_nodes;
         continue;
       }
-      for (const double F : accelerate(body, n, sum.data(), dt, settings, part)) unbalanced += std::abs(F);
+      for (const double F : accelerate(body, k, sum.data(), dt, settings, part)) unbalanced += std::abs(F);
       mass += sum[0];
     }
     part.unbalanced_force = unbalanced;
@@ -237,14 +239,14 @@ template <int Dim>
 void filter_changes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
   const double phi = settings.scheme.kept(dt);
   for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>&) {
-    with_sums<2 * Dim>(body, first, last, [&](const Node<Dim>& node, int n, const auto& M_w) {
-      auto& motion = body.buffers.motion[n];
+    with_sums<2 * Dim>(body, first, last, [&](const Node<Dim>& node, int k, const auto& M_w) {
+      auto& motion = body.buffers.motion[k];
       Vec<Dim> a_dt, v_next;
       for (int j = 0; j < Dim; ++j) {
         a_dt[j] = scheme::filtered(motion.dv(j), M_w[j], node.per_mass);
         v_next[j] = scheme::filtered(motion.du(j), M_w[Dim + j], node.per_mass);
       }
-      if (node.acted_on && body.sides.slows(n)) [[unlikely]] {
+      if (const int n = body.assembly.node(k); node.acted_on && body.sides.slows(n)) [[unlikely]] {
         for (int j = 0; j < Dim; ++j) {
           const double gamma = body.sides.gamma(n, j);
           a_dt[j] = scheme::filtered_of(gamma, motion.dv(j), M_w[j], node.per_mass);
@@ -254,7 +256,7 @@ void filter_changes(Body<Dim>& body, double dt, const StepSettings& settings, St
       if (node.held != 0) [[unlikely]] {
         for (int j = 0; j < Dim; ++j) {
           if (!(node.held >> j & 1u)) continue;
-          a_dt[j] = body.buffers.a_dt[n][j];
+          a_dt[j] = body.buffers.a_dt[k][j];
           v_next[j] = motion.du(j);
         }
       }
@@ -263,7 +265,7 @@ void filter_changes(Body<Dim>& body, double dt, const StepSettings& settings, St
         motion.du(j) = a_dt[j];  // until there is du: its product with M is part of the books of PIC
       }
       if (node.acted_on) [[unlikely]] {
-        for (int j = 0; j < Dim; ++j) body.buffers.half_path[n][j] = 0.5 * (v_next[j] - a_dt[j]) * dt;
+        for (int j = 0; j < Dim; ++j) body.buffers.half_path[k][j] = 0.5 * (v_next[j] - a_dt[j]) * dt;
       }
     });
   });
@@ -283,11 +285,11 @@ double energy_of_flip(const Node<Dim>& node, const transfer::Motion<Dim>& motion
 
 /// The du of held components: no part of P.
 template <int Dim>
-void keep_aside(Body<Dim>& body, int n) {
-  auto& motion = body.buffers.motion[n];
+void keep_aside(Body<Dim>& body, int k) {
+  auto& motion = body.buffers.motion[k];
   for (int j = 0; j < Dim; ++j) {
-    if (!(body.buffers.node[n].held >> j & 1u)) continue;
-    body.buffers.half_path[n][j] = motion.du(j);
+    if (!(body.buffers.node[k].held >> j & 1u)) continue;
+    body.buffers.half_path[k][j] = motion.du(j);
     motion.du(j) = 0;
   }
 }
@@ -303,8 +305,8 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
   for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>& part) {
     Vec<Dim> m_du{};
     double taken = 0;
-    const auto of_node = [&](const Node<Dim>& node, int n, const auto& M_w) {
-      auto& motion = body.buffers.motion[n];
+    const auto of_node = [&](const Node<Dim>& node, int k, const auto& M_w) {
+      auto& motion = body.buffers.motion[k];
       Vec<Dim> v, path;
       for (int j = 0; j < Dim; ++j) {
         v[j] = phi * node.v[j] + M_w[j] * node.per_mass;  // eq. 7 and eq. 8
@@ -313,11 +315,11 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
       if (books_pic) taken += energy_of_flip(node, motion, M_w);
       // The others: of a scheme of two terms on P v, below; of one whose points take the velocity before, on that.
       const unsigned here = scheme.affine ? 0 : scheme.two_terms ? node.held : all_components;
-      if (here != 0) book_work<Dim>(body, n, settings, here, path, part);
-      if (node.acted_on && is_resisted(body, n, settings.damping)) [[unlikely]]
-        v = constrained<Dim>(body, n, scheme, v);
+      if (here != 0) book_work<Dim>(body, k, settings, here, path, part);
+      if (node.acted_on && is_resisted(body, body.assembly.node(k), settings.damping)) [[unlikely]]
+        v = constrained<Dim>(body, k, scheme, v);
       for (int j = 0; j < Dim; ++j) motion.du(j) = v[j] * dt;  // eq. 16
-      if (node.acted_on && body.sides.slows(n)) [[unlikely]] {
+      if (const int n = body.assembly.node(k); node.acted_on && body.sides.slows(n)) [[unlikely]] {
         for (int j = 0; j < Dim; ++j) {
           if (!filters || !(node.held >> j & 1u)) motion.du(j) *= body.sides.gamma(n, j);
         }
@@ -325,7 +327,7 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
       if (!filters) {
         for (int j = 0; j < Dim; ++j) m_du[j] += node.m * motion.du(j);
       } else if (node.held != 0) [[unlikely]] {
-        keep_aside<Dim>(body, n);
+        keep_aside<Dim>(body, k);
       }
     };
     if (scheme.two_terms) {
@@ -340,22 +342,23 @@ void velocities_of_nodes(Body<Dim>& body, double dt, const StepSettings& setting
 
 /// du = P v dt of a node that is acted on, from what it is without conditions; books the work of what acts on it.
 template <int Dim, class Sums>
-[[gnu::noinline]] Vec<Dim> displacement_of_others(Body<Dim>& body, int n, const StepSettings& settings, Vec<Dim> du,
+[[gnu::noinline]] Vec<Dim> displacement_of_others(Body<Dim>& body, int k, const StepSettings& settings, Vec<Dim> du,
                                                   const Sums& M_w, StepBooks<Dim>& books) {
-  const Vec<Dim>& aside = body.buffers.half_path[n];
-  const unsigned held = body.buffers.node[n].held;
+  const Vec<Dim>& aside = body.buffers.half_path[k];
+  const int n = body.assembly.node(k);
+  const unsigned held = body.buffers.node[k].held;
   const bool slowed = body.sides.slows(n);
   Vec<Dim> path;
   for (int j = 0; j < Dim; ++j) {
     if (slowed) {
       const double gamma = body.sides.gamma(n, j);
-      du[j] = scheme::filtered_of(gamma, body.buffers.motion[n].du(j), M_w[Dim + j], body.buffers.node[n].per_mass);
+      du[j] = scheme::filtered_of(gamma, body.buffers.motion[k].du(j), M_w[Dim + j], body.buffers.node[k].per_mass);
     }
     if (held >> j & 1u) du[j] = aside[j];
     path[j] = aside[j] + 0.5 * du[j];
   }
-  if (settings.scheme.two_terms) book_work_of_others<Dim>(body, n, settings, ~held, path, books);
-  if (is_resisted(body, n, settings.damping)) du = constrained<Dim>(body, n, settings.scheme, du);
+  if (settings.scheme.two_terms) book_work_of_others<Dim>(body, k, settings, ~held, path, books);
+  if (is_resisted(body, n, settings.damping)) du = constrained<Dim>(body, k, settings.scheme, du);
   if (slowed) body.sides.slow_down(n, du);
   return du;
 }
@@ -364,12 +367,12 @@ template <int Dim>
 void filter_displacements(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books) {
   for_each_chunk(body, books, [&](int first, int last, StepBooks<Dim>& part) {
     Vec<Dim> m_du{};
-    with_sums<2 * Dim>(body, first, last, [&](const Node<Dim>& node, int n, const auto& M_w) {
-      auto& motion = body.buffers.motion[n];
+    with_sums<2 * Dim>(body, first, last, [&](const Node<Dim>& node, int k, const auto& M_w) {
+      auto& motion = body.buffers.motion[k];
       Vec<Dim> du;
       for (int j = 0; j < Dim; ++j) du[j] = scheme::filtered(motion.du(j), M_w[Dim + j], node.per_mass);
       if (node.acted_on) [[unlikely]]
-        du = displacement_of_others<Dim>(body, n, settings, du, M_w, part);
+        du = displacement_of_others<Dim>(body, k, settings, du, M_w, part);
       for (int j = 0; j < Dim; ++j) {
         motion.du(j) = du[j];
         m_du[j] += node.m * du[j];

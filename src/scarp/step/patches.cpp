@@ -53,10 +53,10 @@ void add_mean_stresses(Body<Dim>& body, StepBooks<Dim>& books) {
 template <int Dim>
 void find_dilations(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books) {
   const bool mends = settings.scheme.mends_massless && books.massless_nodes > 0;
-  for_each_simplex(body, books, [&]<class Basis>(Basis, int slot, int e, const transfer::Means<Basis>& means) {
-    auto motion = motion_of_nodes<Basis>(body, e);
+  for_each_simplex(body, books, [&]<class Basis>(Basis, int slot, int, const transfer::Means<Basis>& means) {
+    auto motion = motion_of_nodes<Basis>(body, slot);
     transfer::Motion<Dim> mean_motion;
-    if (mends) mend_massless<Basis>(body, e, motion, mean_motion);
+    if (mends) mend_massless<Basis>(body, slot, motion, mean_motion);
     body.buffers.patch_share[slot].theta = transfer::mean_dilation<Basis>(means, motion);
   });
 }

@@ -158,7 +158,7 @@ void find_bound_by_nodes(Body<Dim>& body, const Scheme& scheme) {
   step::map_points_to_elements(body, settings, unused);
   for (int k = 0; k < body.assembly.size(); ++k) {
     const double m = step::gathered<transfer::node_sums<Dim>>(body, k, body.buffers.sums)[0];
-    body.buffers.node[body.assembly.node(k)].per_mass = m < body.least_mass ? 0 : 1 / m;
+    body.buffers.node[k].per_mass = m < body.least_mass ? 0 : 1 / m;
   }
   step::bound_by_nodes(body, unused);
 }
