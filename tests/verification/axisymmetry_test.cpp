@@ -47,14 +47,14 @@ TEST(BodyOfRevolution, RadialExpansionStrainsTheCircumferenceAsMuch) {
     const int e = body.active.element[slot];
     const auto n = body.mesh->element_nodes(e);
     std::array<transfer::Motion<2>, 4> motion;
-    transfer::ElementMotion<Basis> element{{}, {}, no_correction, 1, body.mesh->size[e], no_correction};
+    transfer::ElementMotion<Basis> element{{}, no_correction, 1, body.mesh->size[e], no_correction};
     for (int i = 0; i < 4; ++i) {
       motion[i].du(0) = c * body.mesh->nodes[n[i]][0];
       motion[i].du(1) = -2 * c * body.mesh->nodes[n[i]][1];
       element.motion[i] = motion[i].row.data();
     }
     transfer::nodes_to_points<false, Basis>(
-        Basis::Cell(*body.mesh, e), element, {}, block.points,
+        Basis::Cell(*body.mesh, e), element, {}, {}, block.points,
         {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, increments,
         block.begin[slot], std::false_type{}, sums, [](const auto&...) {});
   }

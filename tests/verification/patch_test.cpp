@@ -147,14 +147,14 @@ TEST(RigidRotation, TurnsStressBetaAndCentreWithTheBody) {
       const int e = body.active.element[slot];
       const auto x_i = node_positions<Q4>(*body.mesh, e);
       std::array<transfer::Motion<2>, 4> motion;
-      transfer::ElementMotion<GridLinear<2>> element{{}, {}, no_correction, 1, body.mesh->size[e]};
+      transfer::ElementMotion<GridLinear<2>> element{{}, no_correction, 1, body.mesh->size[e]};
       for (int i = 0; i < 4; ++i) {
         motion[i].du(0) = -w * x_i[i][1];
         motion[i].du(1) = w * x_i[i][0];
         element.motion[i] = motion[i].row.data();
       }
       transfer::nodes_to_points<false, GridLinear<2>>(
-          GridLinear<2>::Cell(*body.mesh, e), element, {}, block.points,
+          GridLinear<2>::Cell(*body.mesh, e), element, {}, {}, block.points,
           {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, increments,
           block.begin[slot], std::false_type{}, sums, [](const auto&...) {});
     }

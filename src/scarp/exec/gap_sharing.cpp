@@ -32,24 +32,25 @@ int gap_column(const AnyModel& any) {
 }  // namespace
 
 template <int Dim>
-GapSharing<Dim>::GapSharing(Block<Dim>& block, PointIncrements<Dim>& increments, int directions, double dt)
+GapSharing<Dim>::GapSharing(const Block<Dim>& block, Column& volume, PointIncrements<Dim>& increments, int directions,
+                            double dt)
     : block_(block),
+      volume_(volume),
       increments_(increments),
       directions_(directions),
       dt_(dt),
       column_(gap_column<sym_size<Dim>>(block.model)) {}
 
 template <int Dim>
-double GapSharing<Dim>::mean(const std::array<Column, sym_size<Dim>>& sigma, int p) const {
+double GapSharing<Dim>::mean(const Tensors& sigma, int p) const {
   double sum = 0;
   for (int j = 0; j < directions_; ++j) sum += sigma[j][p];
   return sum / directions_;
 }
 
 template <int Dim>
-double GapSharing<Dim>::felt(int p) const {
-  const auto& points = block_.points;
-  return mean(points.sigma_ahead[0].empty() ? points.sigma : points.sigma_ahead, p);
+double GapSharing<Dim>::felt(const Tensors& sigma, const Tensors& sigma_ahead, int p) const {
+  return mean(sigma_ahead[0].empty() ? sigma : sigma_ahead, p);
 }
 
 template <int Dim>
@@ -68,7 +69,7 @@ double GapSharing<Dim>::dilation(int at) const {
 
 template <int Dim>
 void GapSharing<Dim>::add(int p, int at, double strain) {
-  block_.points.volume[p] *= std::exp(strain);
+  volume_[p] *= std::exp(strain);
   increments_.per_mass[at] *= std::exp(strain);
   increments_.volume[at] *= std::exp(0.5 * strain);
   for (int j = 0; j < directions_; ++j) increments_.deps[j][at] += strain / directions_;
@@ -82,7 +83,7 @@ void GapSharing<Dim>::in_element(PointRange range, double size, int at) {
   double volume = 0, stress = 0, carrying = 0, M = 0, per_mass = 0;
   for (int k = 0; k < range.count; ++k) {
     const int p = range.order[k];
-    const double Omega = points.volume[p];
+    const double Omega = volume_[p];
     volume += Omega;
     stress += Omega * mean(points.sigma, p);
     per_mass += Omega * increments_.per_mass[at + k];
@@ -93,7 +94,7 @@ void GapSharing<Dim>::in_element(PointRange range, double size, int at) {
   const double of_element = std::pow(size, Dim);
   for (int k = 0; k < range.count; ++k) {
     const int p = range.order[k];
-    const double opened = points.volume[p] * (1 - volume_when_closed(gap(p)));
+    const double opened = volume_[p] * (1 - volume_when_closed(gap(p)));
     if (opened > of_element * (directions_ > Dim ? points.x[0][p] : 1))  // of a ring: by its radius
       add(p, at + k, -std::max(0.0, dilation(at + k)));
   }
@@ -103,15 +104,16 @@ void GapSharing<Dim>::in_element(PointRange range, double size, int at) {
   for (int k = 0; k < range.count; ++k) {
     const int p = range.order[k];
     const double strain = theta * (stress / volume - mean(points.sigma, p)) / M;
-    taken_.push_back({p, at + k, strain, felt(p)});
+    taken_.push_back({p, at + k, strain, felt(points.sigma, points.sigma_ahead, p)});
     add(p, at + k, strain);
   }
 }
 
 template <int Dim>
-double GapSharing<Dim>::work() const {
+double GapSharing<Dim>::work(const UpdatedColumns<Dim>& after) const {
   double work = 0;
-  for (const auto& t : taken_) work += increments_.volume[t.at] * 0.5 * (t.felt + felt(t.point)) * t.strain;
+  for (const auto& t : taken_)
+    work += increments_.volume[t.at] * 0.5 * (t.felt + felt(after.sigma, after.sigma_ahead, t.point)) * t.strain;
   return work;
 }
 

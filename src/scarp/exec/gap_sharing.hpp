@@ -23,8 +23,9 @@ namespace scarp::exec {
 template <int Dim>
 class GapSharing {
  public:
-  /// `directions` of volume strain: the first 2 or 3 normal components. `dt` in s.
-  GapSharing(Block<Dim>& block, PointIncrements<Dim>& increments, int directions, double dt);
+  /// `volume`: Ω_p at the end of the step, the block's own or a trial's. `directions` of volume strain: the first 2 or
+  /// 3 normal components. `dt` in s.
+  GapSharing(const Block<Dim>& block, Column& volume, PointIncrements<Dim>& increments, int directions, double dt);
 
   /// Has the law openings to share?
   bool active() const { return column_ >= 0; }
@@ -33,10 +34,13 @@ class GapSharing {
   /// `size` [m], where one of them is open.
   void in_element(PointRange range, double size, int at);
 
-  /// After the stress update: Σ Ω σ : δ, which the work of stress has counted and nodes have not done.
-  double work() const;
+  /// After the stress update, with what it has written: Σ Ω σ : δ, which the work of stress has counted and nodes have
+  /// not done.
+  double work(const UpdatedColumns<Dim>& after) const;
 
  private:
+  using Tensors = std::array<Column, sym_size<Dim>>;
+
   /// A point that took volume strain from others.
   struct Taken {
     int point;
@@ -46,13 +50,15 @@ class GapSharing {
   };
 
   double gap(int p) const { return block_.state[static_cast<std::size_t>(column_)][p]; }
-  double mean(const std::array<Column, sym_size<Dim>>& sigma, int p) const;
-  double felt(int p) const;
+  double mean(const Tensors& sigma, int p) const;
+  /// What nodes feel: the mean of σ*, where there is one.
+  double felt(const Tensors& sigma, const Tensors& sigma_ahead, int p) const;
   double modulus(int p) const;
   double dilation(int at) const;
   void add(int p, int at, double strain);
 
-  Block<Dim>& block_;
+  const Block<Dim>& block_;
+  Column& volume_;
   PointIncrements<Dim>& increments_;
   int directions_;
   double dt_;

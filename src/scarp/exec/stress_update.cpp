@@ -19,14 +19,16 @@ class Update {
   static constexpr int N = sym_size<Dim>;
   template <class T>
   using State = typename Model::template State<T, N>;
-  using Increments = PointIncrements<Dim>;
 
  public:
-  Update(const Model& model, Block<Dim>& block, const PointIncrements<Dim>& increments, double dt,
-         const IntegrationSettings& settings, const WaveSettings& waves, StressBooks& books)
+  /// From the columns of `block` to those of `to`, which may be the same.
+  Update(const Model& model, const Block<Dim>& block, const UpdatedColumns<Dim>& to,
+         const PointIncrements<Dim>& increments, double dt, const IntegrationSettings& settings,
+         const WaveSettings& waves, StressBooks& books)
       : model_(model),
         block_(block),
         points_(block.points),
+        to_(to),
         increments_(increments),
         dt_(dt),
         settings_(settings),
@@ -65,7 +67,7 @@ class Update {
     const auto trial =
         attempt<ModifiedEuler>(model_, rotated, Increment<Batch, N>{deps, Batch(dt_)}, settings_.tolerance);
     const auto good = trial.flags.sound && (trial.error <= Batch(settings_.tolerance));
-    p.store(p.load(points_.eps_q) + Batch(sqrt_2_3) * norm(deviator(deps)), points_.eps_q);
+    p.store(p.load(points_.eps_q) + Batch(sqrt_2_3) * norm(deviator(deps)), to_.eps_q);
 
     const unsigned present = first_bits(p.count()), done = bits_of(good) & present;
     Batch damping(0.0);
@@ -81,8 +83,8 @@ class Update {
     if (done == first_bits(W) && (noted & present) == 0) [[likely]] {
       const auto keep = [&](const auto& lanes) {
         store_state(trial.state, lanes);
-        lanes.store(std::uint8_t{0}, points_.flags);
-        lanes.store(std::uint8_t{1}, points_.substeps);
+        lanes.store(std::uint8_t{0}, to_.flags);
+        lanes.store(std::uint8_t{1}, to_.substeps);
       };
       if (p.whole()) [[likely]] {
         keep(WholeLanes<Batch>(p.point(0)));
@@ -123,11 +125,11 @@ class Update {
                                share_ahead(model_.p_wave_modulus(now), increment(increments_.per_mass, at)));
     Batch rate(0.0);
     for (int c = 0; c < N; ++c) {
-      auto& ahead = points_.sigma_ahead[c];
+      const auto& ahead = points_.sigma_ahead[c];
       if (ahead.empty()) continue;
       const Batch change = share * (now.sigma[c] - rotated[c]), before = p.load(ahead);
       rate = fma(change - before - old[c], deps[c], rate);
-      p.store(select(good, -(now.sigma[c] + change), before), ahead);
+      p.store(select(good, -(now.sigma[c] + change), before), to_.sigma_ahead[c]);
     }
     return increment(increments_.volume, at) * Batch(0.5) * rate;
   }
@@ -152,7 +154,7 @@ class Update {
         model_, straggler_count_, [&](int i) { return rotated_point(stragglers_[i]); },
         [&](int i, const State<double>& end, const IntegrationReport& report) {
           const auto [p, at] = stragglers_[i];
-          const auto start = rotated_point(stragglers_[i]);  // the columns still hold the start
+          const auto start = rotated_point(stragglers_[i]);  // the block's columns still hold the start
           books_.work += increments_.volume[at] * 0.5 * dot(start.state.sigma + end.sigma, start.whole.deps);
           if (damped_) look_ahead(p, at, start, end, report);
           store_state(end, p);
@@ -163,18 +165,18 @@ class Update {
     straggler_count_ = 0;
   }
 
-  /// The same for one point, whose columns still hold the start.
+  /// The same for one point, of which the block's columns still hold the start.
   void look_ahead(int p, int at, const Task<Model, N>& start, const State<double>& end,
                   const IntegrationReport& report) {
     const bool follows = report.end == IntegrationEnd::done && !report.flags.separated;
     const double share = follows ? share_ahead(model_.p_wave_modulus(end), increments_.per_mass[at]) : 0.0;
     double rate = 0;
     for (int c = 0; c < N; ++c) {
-      auto& ahead = points_.sigma_ahead[c];
+      const auto& ahead = points_.sigma_ahead[c];
       if (ahead.empty()) continue;
       const double change = share * (end.sigma[c] - start.state.sigma[c]);
       rate += (change - ahead[p] + points_.sigma[c][p]) * start.whole.deps[c];
-      ahead[p] = -(end.sigma[c] + change);
+      to_.sigma_ahead[c][p] = -(end.sigma[c] + change);
     }
     books_.damping += increments_.volume[at] * 0.5 * rate;
   }
@@ -192,10 +194,10 @@ class Update {
 
   void record(int p, int substeps, const UpdateFlags<double>& flags, IntegrationEnd end) {
     const bool failed = end != IntegrationEnd::done;
-    points_.flags[p] =
+    to_.flags[p] =
         static_cast<std::uint8_t>((flags.separated ? flag_separated : 0) | (flags.on_floor ? flag_on_floor : 0) |
                                   (failed ? flag_failed : 0) | (flags.corrected ? flag_corrected : 0));
-    points_.substeps[p] = static_cast<std::uint8_t>(std::min(substeps, 255));
+    to_.substeps[p] = static_cast<std::uint8_t>(std::min(substeps, 255));
     books_.substeps += substeps;
     books_.most_substeps = std::max(books_.most_substeps, substeps);
     books_.separated += flags.separated;
@@ -256,16 +258,17 @@ class Update {
   }
   template <class Lanes>
   void store_state(const State<Batch>& s, const Lanes& p) {
-    store<Dim>(model_, s, block_, [&](const Batch& x, Column& column) { p.store(x, column); });
+    store<Dim>(model_, s, to_.sigma, to_.state, [&](const Batch& x, Column& column) { p.store(x, column); });
   }
   State<double> load_state(int p) const { return state_of<Dim>(block_, model_, p); }
   void store_state(const State<double>& s, int p) {
-    store<Dim>(model_, s, block_, [p](double x, Column& column) { column[p] = x; });
+    store<Dim>(model_, s, to_.sigma, to_.state, [p](double x, Column& column) { column[p] = x; });
   }
 
   const Model& model_;
-  Block<Dim>& block_;
-  Points<Dim>& points_;
+  const Block<Dim>& block_;
+  const Points<Dim>& points_;
+  UpdatedColumns<Dim> to_;
   const PointIncrements<Dim>& increments_;
   double dt_;
   const IntegrationSettings& settings_;
@@ -298,21 +301,39 @@ StressBooks& StressBooks::operator+=(const StressBooks& other) {
   return *this;
 }
 
+namespace {
+
 template <int Dim>
-void update_stresses(Block<Dim>& block, PointRange range, const PointIncrements<Dim>& increments, int at, double dt,
-                     const IntegrationSettings& settings, StressBooks& books, const WaveSettings& waves) {
+void update(const Block<Dim>& block, const UpdatedColumns<Dim>& to, PointRange range,
+            const PointIncrements<Dim>& increments, int at, double dt, const IntegrationSettings& settings,
+            StressBooks& books, const WaveSettings& waves) {
   std::visit(
       [&]<class Model>(const Model& model) {
         if constexpr (Averaged<Model>) {
           if (block.length > 0) {
             const Nonlocal<Model> nonlocal(model);
-            Update<Nonlocal<Model>, Dim>(nonlocal, block, increments, dt, settings, waves, books)(range, at);
+            Update<Nonlocal<Model>, Dim>(nonlocal, block, to, increments, dt, settings, waves, books)(range, at);
             return;
           }
         }
-        Update<Model, Dim>(model, block, increments, dt, settings, waves, books)(range, at);
+        Update<Model, Dim>(model, block, to, increments, dt, settings, waves, books)(range, at);
       },
       block.model);
+}
+
+}  // namespace
+
+template <int Dim>
+void update_stresses(Block<Dim>& block, PointRange range, const PointIncrements<Dim>& increments, int at, double dt,
+                     const IntegrationSettings& settings, StressBooks& books, const WaveSettings& waves) {
+  update(block, UpdatedColumns<Dim>(block), range, increments, at, dt, settings, books, waves);
+}
+
+template <int Dim>
+void trial_stresses(const Block<Dim>& block, TrialState<Dim>& trial, PointRange range,
+                    const PointIncrements<Dim>& increments, int at, double dt, const IntegrationSettings& settings,
+                    StressBooks& books, const WaveSettings& waves) {
+  update(block, UpdatedColumns<Dim>(trial), range, increments, at, dt, settings, books, waves);
 }
 
 template <int Dim>
@@ -342,6 +363,10 @@ template void update_stresses<2>(Block<2>&, PointRange, const PointIncrements<2>
                                  const IntegrationSettings&, StressBooks&, const WaveSettings&);
 template void update_stresses<3>(Block<3>&, PointRange, const PointIncrements<3>&, int, double,
                                  const IntegrationSettings&, StressBooks&, const WaveSettings&);
+template void trial_stresses<2>(const Block<2>&, TrialState<2>&, PointRange, const PointIncrements<2>&, int, double,
+                                const IntegrationSettings&, StressBooks&, const WaveSettings&);
+template void trial_stresses<3>(const Block<3>&, TrialState<3>&, PointRange, const PointIncrements<3>&, int, double,
+                                const IntegrationSettings&, StressBooks&, const WaveSettings&);
 template double critical_time_step<2>(const Block<2>&, const std::vector<double>&, const ActiveElements&, const Column&,
                                       const Column&, const WaveSettings&);
 template double critical_time_step<3>(const Block<3>&, const std::vector<double>&, const ActiveElements&, const Column&,

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
 #include <vector>
 
+#include "scarp/exec/trial_state.hpp"
 #include "scarp/material/integrate/embedded.hpp"
 #include "scarp/points/lanes.hpp"
 #include "scarp/points/points.hpp"
@@ -60,6 +62,12 @@ template <int Dim>
 void update_stresses(Block<Dim>& block, PointRange range, const PointIncrements<Dim>& increments, int at, double dt,
                      const IntegrationSettings& settings, StressBooks& books, const WaveSettings& waves = {});
 
+/// The same to the columns of a trial that is prepared for the block, which stays as it is.
+template <int Dim>
+void trial_stresses(const Block<Dim>& block, TrialState<Dim>& trial, PointRange range,
+                    const PointIncrements<Dim>& increments, int at, double dt, const IntegrationSettings& settings,
+                    StressBooks& books, const WaveSettings& waves = {});
+
 /// The least 1 / (c/(k h) + |v|/h) over the points of a block, with c the compression wave speed of their present
 /// stiffness; infinite where no point has stiffness. `weight` is that of the points in the quadrature of the active
 /// element in each slot, `least_per_mass` a bound of PointIncrements::per_mass from below in it, or empty.
@@ -68,20 +76,20 @@ double critical_time_step(const Block<Dim>& block, const std::vector<double>& el
                           const ActiveElements& active, const Column& weight, const Column& least_per_mass,
                           const WaveSettings& waves);
 
-/// f(component, its column, whether that is of sigma) for each component of a state that a block of this model keeps in
-/// a column: sigma, tension positive in the arrays of the points and compression positive in the law, and the law's
-/// own. The rest of a state goes to `without(component)`.
-template <int Dim, class Model, class AnyBlock, class S, class F, class G>
-inline void for_each_kept(const Model& model, AnyBlock& block, S& s, F&& f, G&& without) {
+/// f(component, its column, whether that is of sigma) for each component of a state that this model keeps in a column
+/// of `sigma` or `state`: sigma, tension positive in the arrays of the points and compression positive in the law, and
+/// the law's own. The rest of a state goes to `without(component)`.
+template <int Dim, class Model, class Sigma, class States, class S, class F, class G>
+inline void for_each_kept(const Model& model, Sigma& sigma, States& state, S& s, F&& f, G&& without) {
   constexpr int N = sym_size<Dim>;
   const int columns = state_columns<N>(model);
   int c = 0;
   for_each_component(
       [&](auto& x) {
         if (c < N) {
-          f(x, block.points.sigma[c], std::true_type{});
+          f(x, sigma[c], std::true_type{});
         } else if (c - N < columns) {
-          f(x, block.state[c - N], std::false_type{});
+          f(x, state[c - N], std::false_type{});
         } else {
           without(x);
         }
@@ -95,7 +103,7 @@ template <int Dim, class S, class Model, class Load>
 inline S loaded(const Model& model, const Block<Dim>& block, Load&& load) {
   S s;
   for_each_kept<Dim>(
-      model, block, s,
+      model, block.points.sigma, block.state, s,
       [&](auto& x, const Column& column, auto of_sigma) {
         x = load(column);
         if constexpr (of_sigma) x = -x;
@@ -104,11 +112,12 @@ inline S loaded(const Model& model, const Block<Dim>& block, Load&& load) {
   return s;
 }
 
-/// To the columns; store(number of each, column).
+/// To the columns `sigma` and `state`; store(number of each, column).
 template <int Dim, class S, class Model, class Store>
-inline void store(const Model& model, const S& s, Block<Dim>& block, Store&& to) {
+inline void store(const Model& model, const S& s, std::array<Column, sym_size<Dim>>& sigma, std::vector<Column>& state,
+                  Store&& to) {
   for_each_kept<Dim>(
-      model, block, s,
+      model, sigma, state, s,
       [&](const auto& x, Column& column, auto of_sigma) {
         if constexpr (of_sigma) {
           to(-x, column);
@@ -117,6 +126,10 @@ inline void store(const Model& model, const S& s, Block<Dim>& block, Store&& to)
         }
       },
       [](const auto&) {});
+}
+template <int Dim, class S, class Model, class Store>
+inline void store(const Model& model, const S& s, Block<Dim>& block, Store&& to) {
+  store<Dim>(model, s, block.points.sigma, block.state, to);
 }
 
 /// State of point i of a block of this model, compression positive.

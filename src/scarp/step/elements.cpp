@@ -9,6 +9,7 @@
 #include "scarp/exec/parallel.hpp"
 #include "scarp/mesh/with_basis.hpp"
 #include "scarp/step/element.hpp"
+#include "scarp/step/element_motion.hpp"
 #include "scarp/step/patches.hpp"
 #include "scarp/step/phases.hpp"
 #include "scarp/transfer/mass_matrix.hpp"
@@ -222,48 +223,22 @@ struct MotionBooks {
   std::int64_t stayed = 0;  ///< points that did not leave their element
 };
 
-/// The volume strain of all points of an element.
-template <class Basis>
-double mean_dilation(const Body<Basis::dim>& body, int slot, const typename Basis::Cell& cell,
-                     const transfer::NodeRows<Basis>& motion) {
-  using Means = transfer::Means<Basis>;
-  if constexpr (is_simplex<Basis>) {
-    return mean_over_patch(body, body.active.element[slot], &PatchShare::theta);
-  } else if constexpr (transfer::keeps_means<Basis>) {
-    return Means::dilation(body.buffers.mean_gradient.data() + slot * Means::size, motion, Basis::dim);
-  } else {
-    return transfer::mean_dilation<Basis>(cell, motion);
-  }
-}
-
 /// Steps 4, 6, 8, 9, 10 and 11 for the points of a block in an element.
 template <bool pic, class Basis, class Averaged>
 SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block, int slot, int e,
                                const MoveRules& rules, PointIncrements<Basis::dim>& increments, int at,
                                Averaged averaged, MotionBooks<Basis::dim>& motion, StepBooks<Basis::dim>& books) {
   const typename Basis::Cell cell(*body.mesh, e);
-  transfer::ElementMotion<Basis> element{motion_of_nodes<Basis>(body, slot),
-                                         {},
-                                         body.buffers.correction.data() + slot * body.buffers.correction_row,
-                                         body.buffers.weight[slot],
-                                         body.mesh->size[e],
-                                         nullptr,
-                                         0,
-                                         0};
-  if constexpr (is_simplex<Basis>) element.least_per_mass = body.buffers.bounds.least_per_mass[slot];
-  if constexpr (is_axisymmetric<Basis>) {
-    element.hoop_correction = body.buffers.hoop_correction.data() + slot * padded_row(body.assembly.row());
-  }
   transfer::Motion<Basis::dim> mean_motion;
-  if (rules.mends_massless) mend_massless<Basis>(body, slot, element.motion, mean_motion);
+  const auto element = element_motion<Basis>(body, slot, cell, rules.mends_massless, averaged, mean_motion);
+  transfer::NodeRows<Basis> a_dt{};
   if constexpr (pic) {
     const int* k = body.assembly.nodes_of(slot);
-    for (int i = 0; i < Basis::nodes; ++i) element.a_dt[i] = body.buffers.a_dt[k[i]].data();
+    for (int i = 0; i < Basis::nodes; ++i) a_dt[i] = body.buffers.a_dt[k[i]].data();
   }
-  if (averaged) element.mean_dilation = mean_dilation<Basis>(body, slot, cell, element.motion);
   const std::int64_t changed = books.changed_element;
   transfer::nodes_to_points<pic, Basis>(
-      cell, element, rules.motion, block.points, points_of(block, slot), increments, at, averaged, motion.sums,
+      cell, element, a_dt, rules.motion, block.points, points_of(block, slot), increments, at, averaged, motion.sums,
       [&](const auto& p, const auto& x, const auto& before) {
         const unsigned inside =
             still_inside<Basis>(cell, p, x, before, body.locator.tolerance(), block.points,
@@ -370,7 +345,7 @@ void strain_stress_and_motion(Body<Dim>& body, double dt, const StepSettings& se
   for_each_chunk(body, element_chunk, books, [&](int first, int last, StepBooks<Dim>& part) {
     PointIncrements<Dim>& increments = body.buffers.increments[exec::thread_number()];
     for (auto& block : body.blocks) {
-      exec::GapSharing<Dim> gaps(block, increments, body.mesh->axisymmetric ? 3 : Dim, dt);
+      exec::GapSharing<Dim> gaps(block, block.points.volume, increments, body.mesh->axisymmetric ? 3 : Dim, dt);
       auto* sharing = scheme.shares_gaps && gaps.active() ? &gaps : nullptr;
       {
         const Stopwatch<Dim> watch(settings.profile, part, Phase::strain_and_move);
@@ -384,7 +359,7 @@ void strain_stress_and_motion(Body<Dim>& body, double dt, const StepSettings& se
       const PointRange range{block.order.data() + block.begin[first], block.begin[last] - block.begin[first]};
       exec::update_stresses(block, range, increments, 0, dt, settings.integration, part.stress,
                             scheme::waves(scheme, is_elastic(block.model), settings.damping));
-      if (sharing) part.stress.work -= sharing->work();
+      if (sharing) part.stress.work -= sharing->work(exec::UpdatedColumns<Dim>(block));
     }
   });
   if (scheme::books_pic_at_nodes(scheme, dt)) {

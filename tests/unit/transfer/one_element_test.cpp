@@ -199,7 +199,7 @@ void expect_linear_fields(const Case<Dim>& of, Points<Dim> points) {
     const auto number = of.mesh.element_nodes(e);
     std::array<transfer::Motion<Dim>, Basis::nodes> motion{};
     const std::array<double, 1024> no_correction{};
-    transfer::ElementMotion<Basis> element{{}, {}, no_correction.data(), 1, of.mesh.size[e]};
+    transfer::ElementMotion<Basis> element{{}, no_correction.data(), 1, of.mesh.size[e]};
     for (int n = 0; n < Basis::nodes; ++n) {
       for (int j = 0; j < Dim; ++j) {
         motion[n].dv(j) = field(0, j, of.mesh.nodes[number[n]]);
@@ -208,7 +208,7 @@ void expect_linear_fields(const Case<Dim>& of, Points<Dim> points) {
       element.motion[n] = motion[n].row.data();
     }
     transfer::MotionSums<Dim> sums;
-    transfer::nodes_to_points<false, Basis>(cell, element, {}, points, {order.data(), count}, increments, 0,
+    transfer::nodes_to_points<false, Basis>(cell, element, {}, {}, points, {order.data(), count}, increments, 0,
                                             std::false_type{}, sums, [](const auto&, const auto&, const auto&) {});
   });
   for (int i = 0; i < count; ++i) {

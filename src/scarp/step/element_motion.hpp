@@ -1,0 +1,43 @@
+// What an element has for the strain of its points, from the buffers of the step. Not for use outside step/.
+#pragma once
+
+#include "scarp/step/element.hpp"
+#include "scarp/step/patches.hpp"
+#include "scarp/transfer/increments_at_points.hpp"
+
+namespace scarp::step {
+
+/// The volume strain of all points of an element.
+template <class Basis>
+double mean_dilation(const Body<Basis::dim>& body, int slot, const typename Basis::Cell& cell,
+                     const transfer::NodeRows<Basis>& motion) {
+  using Means = transfer::Means<Basis>;
+  if constexpr (is_simplex<Basis>) {
+    return mean_over_patch(body, body.active.element[slot], &PatchShare::theta);
+  } else if constexpr (transfer::keeps_means<Basis>) {
+    return Means::dilation(body.buffers.mean_gradient.data() + slot * Means::size, motion, Basis::dim);
+  } else {
+    return transfer::mean_dilation<Basis>(cell, motion);
+  }
+}
+
+/// The motion of its nodes and its quadrature. Nodes without mass are mended with `mends_massless`, for which
+/// `mean_motion` is room that must outlive the answer; with `averaged` the volume strain of its points is a mean.
+template <class Basis, class Averaged>
+transfer::ElementMotion<Basis> element_motion(const Body<Basis::dim>& body, int slot, const typename Basis::Cell& cell,
+                                              bool mends_massless, Averaged averaged,
+                                              transfer::Motion<Basis::dim>& mean_motion) {
+  const auto& buffers = body.buffers;
+  transfer::ElementMotion<Basis> element{motion_of_nodes<Basis>(body, slot),
+                                         buffers.correction.data() + slot * buffers.correction_row,
+                                         buffers.weight[slot], body.mesh->size[body.active.element[slot]]};
+  if constexpr (is_simplex<Basis>) element.least_per_mass = buffers.bounds.least_per_mass[slot];
+  if constexpr (is_axisymmetric<Basis>) {
+    element.hoop_correction = buffers.hoop_correction.data() + slot * padded_row(body.assembly.row());
+  }
+  if (mends_massless) mend_massless<Basis>(body, slot, element.motion, mean_motion);
+  if (averaged) element.mean_dilation = mean_dilation<Basis>(body, slot, cell, element.motion);
+  return element;
+}
+
+}  // namespace scarp::step
