@@ -3,7 +3,7 @@
 
 #include "scarp/step/element.hpp"
 #include "scarp/step/patches.hpp"
-#include "scarp/transfer/increments_at_points.hpp"
+#include "scarp/transfer/nodes_to_points.hpp"
 
 namespace scarp::step {
 
@@ -38,6 +38,17 @@ transfer::ElementMotion<Basis> element_motion(const Body<Basis::dim>& body, int 
   if (mends_massless) mend_massless<Basis>(body, slot, element.motion, mean_motion);
   if (averaged) element.mean_dilation = mean_dilation<Basis>(body, slot, cell, element.motion);
   return element;
+}
+
+/// The change of velocity of pure FLIP of each of its nodes, where points book PIC.
+template <bool pic, class Basis>
+transfer::NodeRows<Basis> flip_changes(const Body<Basis::dim>& body, int slot) {
+  transfer::NodeRows<Basis> a_dt{};
+  if constexpr (pic) {
+    const int* k = body.assembly.nodes_of(slot);
+    for (int i = 0; i < Basis::nodes; ++i) a_dt[i] = body.buffers.a_dt[k[i]].data();
+  }
+  return a_dt;
 }
 
 }  // namespace scarp::step

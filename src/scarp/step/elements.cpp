@@ -5,13 +5,13 @@
 #include <limits>
 #include <optional>
 
-#include "scarp/exec/gap_sharing.hpp"
 #include "scarp/exec/parallel.hpp"
 #include "scarp/mesh/with_basis.hpp"
 #include "scarp/step/element.hpp"
 #include "scarp/step/element_motion.hpp"
 #include "scarp/step/patches.hpp"
 #include "scarp/step/phases.hpp"
+#include "scarp/step/sweep.hpp"
 #include "scarp/transfer/mass_matrix.hpp"
 #include "scarp/transfer/nodes_to_points.hpp"
 #include "scarp/transfer/points_to_nodes.hpp"
@@ -209,13 +209,6 @@ template <int Dim, class Lanes>
   }
 }
 
-/// What the scheme says of the sweep of steps 4 and 6 to 11.
-struct MoveRules {
-  transfer::MotionRules motion;
-  double lateness;
-  bool mends_massless;  ///< and there are such nodes
-};
-
 /// What the sweep of steps 4 and 6 to 11 adds up over a chunk.
 template <int Dim>
 struct MotionBooks {
@@ -231,11 +224,7 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
   const typename Basis::Cell cell(*body.mesh, e);
   transfer::Motion<Basis::dim> mean_motion;
   const auto element = element_motion<Basis>(body, slot, cell, rules.mends_massless, averaged, mean_motion);
-  transfer::NodeRows<Basis> a_dt{};
-  if constexpr (pic) {
-    const int* k = body.assembly.nodes_of(slot);
-    for (int i = 0; i < Basis::nodes; ++i) a_dt[i] = body.buffers.a_dt[k[i]].data();
-  }
+  const auto a_dt = flip_changes<pic, Basis>(body, slot);
   const std::int64_t changed = books.changed_element;
   transfer::nodes_to_points<pic, Basis>(
       cell, element, a_dt, rules.motion, block.points, points_of(block, slot), increments, at, averaged, motion.sums,
@@ -244,7 +233,7 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
             still_inside<Basis>(cell, p, x, before, body.locator.tolerance(), block.points,
                                 [&](const auto& xi) { return linger<Basis>(body, cell, slot, xi, rules.lateness); });
         motion.stayed += std::popcount(inside);
-        if (inside != first_bits(p.count())) [[unlikely]]
+        if (inside != first_bits(p.count()) && !rules.stay_there) [[unlikely]]
           find_new_elements(body.locator, e, p, inside, block.points, books);
       });
   if (books.changed_element != changed) [[unlikely]]
@@ -253,9 +242,9 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
 
 /// Of a chunk of elements. Inlined it has not all registers.
 template <bool pic, int Dim>
-[[gnu::noinline]] void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, const MoveRules& rules,
-                                       PointIncrements<Dim>& increments, exec::GapSharing<Dim>* sharing,
-                                       StepBooks<Dim>& books) {
+[[gnu::noinline]] void strain_and_move_points(Body<Dim>& body, Block<Dim>& block, int first, int last,
+                                              const MoveRules& rules, PointIncrements<Dim>& increments,
+                                              exec::GapSharing<Dim>* sharing, StepBooks<Dim>& books) {
   MotionBooks<Dim> motion;
   for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
     const int at = block.begin[slot] - block.begin[first];
@@ -337,11 +326,19 @@ void sum_with_mass_matrix(Body<Dim>& body, int from, StepBooks<Dim>& books) {
 }
 
 template <int Dim>
+void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, const MoveRules& rules,
+                     PointIncrements<Dim>& increments, exec::GapSharing<Dim>* sharing, StepBooks<Dim>& books) {
+  if (rules.books_pic) {
+    strain_and_move_points<true>(body, block, first, last, rules, increments, sharing, books);
+  } else {
+    strain_and_move_points<false>(body, block, first, last, rules, increments, sharing, books);
+  }
+}
+
+template <int Dim>
 void strain_stress_and_motion(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
   const auto& scheme = settings.scheme;
-  const MoveRules rules{{scheme.kept(dt), scheme.middle, scheme.affine, dt},
-                        scheme.lateness,
-                        scheme.mends_massless && books.massless_nodes > 0};
+  const MoveRules rules = move_rules(scheme, dt, books);
   for_each_chunk(body, element_chunk, books, [&](int first, int last, StepBooks<Dim>& part) {
     PointIncrements<Dim>& increments = body.buffers.increments[exec::thread_number()];
     for (auto& block : body.blocks) {
@@ -349,11 +346,7 @@ void strain_stress_and_motion(Body<Dim>& body, double dt, const StepSettings& se
       auto* sharing = scheme.shares_gaps && gaps.active() ? &gaps : nullptr;
       {
         const Stopwatch<Dim> watch(settings.profile, part, Phase::strain_and_move);
-        if (rules.motion.flip == 1 || scheme.two_terms) {
-          strain_and_move<false>(body, block, first, last, rules, increments, sharing, part);
-        } else {
-          strain_and_move<true>(body, block, first, last, rules, increments, sharing, part);
-        }
+        strain_and_move(body, block, first, last, rules, increments, sharing, part);
       }
       const Stopwatch<Dim> watch(settings.profile, part, Phase::stress);
       const PointRange range{block.order.data() + block.begin[first], block.begin[last] - block.begin[first]};
@@ -375,6 +368,10 @@ template void sum_with_mass_matrix<2>(Body<2>&, int, StepBooks<2>&);
 template void sum_with_mass_matrix<4>(Body<2>&, int, StepBooks<2>&);
 template void sum_with_mass_matrix<3>(Body<3>&, int, StepBooks<3>&);
 template void sum_with_mass_matrix<6>(Body<3>&, int, StepBooks<3>&);
+template void strain_and_move<2>(Body<2>&, Block<2>&, int, int, const MoveRules&, PointIncrements<2>&,
+                                 exec::GapSharing<2>*, StepBooks<2>&);
+template void strain_and_move<3>(Body<3>&, Block<3>&, int, int, const MoveRules&, PointIncrements<3>&,
+                                 exec::GapSharing<3>*, StepBooks<3>&);
 template void strain_stress_and_motion<2>(Body<2>&, double, const StepSettings&, StepBooks<2>&);
 template void strain_stress_and_motion<3>(Body<3>&, double, const StepSettings&, StepBooks<3>&);
 

@@ -1,12 +1,11 @@
 #include "scarp/step/trial.hpp"
 
 #include <algorithm>
+#include <utility>
 
-#include "scarp/exec/gap_sharing.hpp"
 #include "scarp/exec/parallel.hpp"
-#include "scarp/mesh/with_basis.hpp"
-#include "scarp/step/element_motion.hpp"
 #include "scarp/step/patches.hpp"
+#include "scarp/step/sweep.hpp"
 
 namespace scarp {
 namespace {
@@ -18,16 +17,28 @@ std::int64_t count_massless(const Body<Dim>& body) {
   return count;
 }
 
-/// Steps 6, 8 and 9 for the points of a block in an element.
-template <class Basis, class Averaged>
-SCARP_FLATTEN void strain_points(const Body<Basis::dim>& body, const Block<Basis::dim>& block, int slot, int e,
-                                 const Scheme& scheme, bool mends_massless, Averaged averaged, Column& volume,
-                                 PointIncrements<Basis::dim>& increments, int at) {
-  const typename Basis::Cell cell(*body.mesh, e);
-  transfer::Motion<Basis::dim> mean_motion;
-  const auto element = step::element_motion<Basis>(body, slot, cell, mends_massless, averaged, mean_motion);
-  transfer::increments_at_points<Basis>(cell, element, scheme.middle, block.points, step::points_of(block, slot),
-                                        averaged, volume, increments, at);
+/// What the sweep reads of the points, and moves.
+template <int Dim>
+void copy_moved(const Block<Dim>& from, Block<Dim>& to) {
+  to.order = from.order;
+  to.begin = from.begin;
+  for (auto column : {&Points<Dim>::mass, &Points<Dim>::volume, &Points<Dim>::initial_volume})
+    to.points.*column = from.points.*column;
+  for (auto vector : {&Points<Dim>::x, &Points<Dim>::v, &Points<Dim>::xi}) to.points.*vector = from.points.*vector;
+  to.points.C = from.points.C;
+}
+
+template <int Dim>
+void prepare(BodyTrial<Dim>& trial, const Body<Dim>& body) {
+  const std::size_t blocks = body.blocks.size();
+  trial.blocks.resize(blocks);
+  while (trial.moved.size() > blocks) trial.moved.pop_back();
+  for (std::size_t b = trial.moved.size(); b < blocks; ++b)
+    trial.moved.emplace_back(body.blocks[b].name, body.blocks[b].model);
+  for (std::size_t b = 0; b < blocks; ++b) {
+    exec::prepare(trial.blocks[b], body.blocks[b]);
+    copy_moved(body.blocks[b], trial.moved[b]);
+  }
 }
 
 }  // namespace
@@ -36,35 +47,29 @@ template <int Dim>
 void form_trial(Body<Dim>& body, double dt, const StepSettings& settings, BodyTrial<Dim>& trial) {
   const Scheme& scheme = settings.scheme;
   prepare_threads(body);
-  trial.blocks.resize(body.blocks.size());
-  for (std::size_t b = 0; b < body.blocks.size(); ++b) exec::prepare(trial.blocks[b], body.blocks[b]);
+  prepare(trial, body);
   StepBooks<Dim> books;
   books.massless_nodes = count_massless(body);
-  const bool mends_massless = scheme.mends_massless && books.massless_nodes > 0;
+  step::MoveRules rules = step::move_rules(scheme, dt, books);
+  rules.stay_there = true;
   if (step::uses_patches(body, settings)) step::find_dilations(body, settings, books);
-  exec::sum_over_chunks(
-      body.active.size(), element_chunk, body.buffers.books, books, [&](int first, int last, StepBooks<Dim>& part) {
-        auto& increments = body.buffers.increments[exec::thread_number()];
-        for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-          const Block<Dim>& block = body.blocks[b];
-          exec::TrialState<Dim>& to = trial.blocks[b];
-          exec::GapSharing<Dim> gaps(block, to.volume, increments, body.mesh->axisymmetric ? 3 : Dim, dt);
-          const bool shares = scheme.shares_gaps && gaps.active();
-          with_basis<Dim>(*body.mesh, body.active.element.data(), first, last,
-                          [&]<class Basis>(Basis, int slot, int e) {
-                            const int at = block.begin[slot] - block.begin[first];
-                            transfer::with_means<Basis>(body.buffers.mean_dilatation[slot] != 0, [&](auto averaged) {
-                              strain_points<Basis>(body, block, slot, e, scheme, mends_massless, averaged, to.volume,
-                                                   increments, at);
-                            });
-                            if (shares) gaps.in_element(step::points_of(block, slot), body.mesh->size[e], at);
-                          });
-          const PointRange range{block.order.data() + block.begin[first], block.begin[last] - block.begin[first]};
-          exec::trial_stresses(block, to, range, increments, 0, dt, settings.integration, part.stress,
-                               scheme::waves(scheme, is_elastic(block.model), settings.damping));
-          if (shares) part.stress.work -= gaps.work(exec::UpdatedColumns<Dim>(to));
-        }
-      });
+  const auto trial_of_block = [&](std::size_t b, int first, int last, StepBooks<Dim>& part) {
+    const Block<Dim>& block = body.blocks[b];
+    Block<Dim>& moved = trial.moved[b];
+    auto& increments = body.buffers.increments[exec::thread_number()];
+    exec::GapSharing<Dim> gaps(block, moved.points.volume, increments, body.mesh->axisymmetric ? 3 : Dim, dt);
+    auto* sharing = scheme.shares_gaps && gaps.active() ? &gaps : nullptr;
+    step::strain_and_move(body, moved, first, last, rules, increments, sharing, part);
+    const PointRange range{block.order.data() + block.begin[first], block.begin[last] - block.begin[first]};
+    exec::trial_stresses(block, trial.blocks[b], range, increments, 0, dt, settings.integration, part.stress,
+                         scheme::waves(scheme, is_elastic(block.model), settings.damping));
+    if (sharing) part.stress.work -= sharing->work(exec::UpdatedColumns<Dim>(trial.blocks[b]));
+  };
+  exec::sum_over_chunks(body.active.size(), element_chunk, body.buffers.books, books,
+                        [&](int first, int last, StepBooks<Dim>& part) {
+                          for (std::size_t b = 0; b < body.blocks.size(); ++b) trial_of_block(b, first, last, part);
+                        });
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) std::swap(trial.moved[b].points.volume, trial.blocks[b].volume);
   trial.stress = books.stress;
 }
 

@@ -60,7 +60,9 @@ inline Gradients<T, Basis::dim> gradients_at(const ElementMotion<Basis>& element
   return g;
 }
 
-/// The increments of an element's points. `element`, the cell and the rows that they point to must outlive it.
+/// The increments of an element's points: L dt = Σ du_i ⊗ B_i (eq. 9), strain and spin (eqs 10, 11), and volume by
+/// det(I + L dt) (eq. 14 in its finite form; the density of eq. 15 is m_p / Ω_p). `element`, the cell and the rows that
+/// they point to must outlive it.
 template <class Basis>
 class IncrementsAtPoints {
   static constexpr int Dim = Basis::dim;
@@ -116,21 +118,5 @@ class IncrementsAtPoints {
   Field<Basis, 2 * Dim> motion_;
   CorrectedGradients<Basis> corrected_;
 };
-
-/// The increments of the points of an element in a range, to the places `at` on of `increments`, and their volumes to
-/// `volume`: L dt = Σ du_i ⊗ B_i (eq. 9), strain and spin (eqs 10, 11), volume by det(I + L dt) (eq. 14 in its finite
-/// form; the density of eq. 15 is m_p / Ω_p). Speeds are set to none.
-template <class Basis, class Averaged>
-inline void increments_at_points(const typename Basis::Cell& cell, const ElementMotion<Basis>& element, bool middle,
-                                 const Points<Basis::dim>& points, const PointRange& range, Averaged averaged,
-                                 Column& volume, PointIncrements<Basis::dim>& increments, int at) {
-  using T = PointBatch<Basis::dim>;
-  const IncrementsAtPoints<Basis> of_element(cell, element, middle);
-  for_each_batch_of_element<T>(range, [&](const auto& p, int first) {
-    const auto local = local_coordinates<Basis>(cell, points, p);
-    of_element.store(points, p, local, of_element.motion().at(local), averaged, volume, increments, at + first);
-    T(0.0).store_unaligned(increments.speed2.data() + at + first);
-  });
-}
 
 }  // namespace scarp::transfer

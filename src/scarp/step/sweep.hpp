@@ -1,0 +1,36 @@
+// The sweep of steps 4 and 6 to 11 over a chunk of elements, for the step itself (elements.cpp) and its trial
+// (trial.cpp). Not for use outside step/.
+#pragma once
+
+#include "scarp/exec/gap_sharing.hpp"
+#include "scarp/step/step.hpp"
+#include "scarp/transfer/nodes_to_points.hpp"
+
+namespace scarp::step {
+
+/// What the scheme says of the sweep.
+struct MoveRules {
+  transfer::MotionRules motion;
+  double lateness;
+  bool mends_massless;      ///< and there are such nodes
+  bool books_pic;           ///< points book what PIC takes, or keep C_p
+  bool stay_there = false;  ///< points keep their element, wherever they go: of a trial
+};
+
+template <int Dim>
+MoveRules move_rules(const Scheme& scheme, double dt, const StepBooks<Dim>& books) {
+  const double phi = scheme.kept(dt);
+  return {{phi, scheme.middle, scheme.affine, dt},
+          scheme.lateness,
+          scheme.mends_massless && books.massless_nodes > 0,
+          phi != 1 && !scheme.two_terms};
+}
+
+/// Steps 4, 6, 8, 9, 10 and 11 for the points of a block in the elements of some slots, and the sharing of gaps where
+/// that is asked for: their increments, from the place of the first on, for the stress update that is to follow.
+/// `block` may be another than the body's, with its points in the same order.
+template <int Dim>
+void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, const MoveRules& rules,
+                     PointIncrements<Dim>& increments, exec::GapSharing<Dim>* sharing, StepBooks<Dim>& books);
+
+}  // namespace scarp::step
