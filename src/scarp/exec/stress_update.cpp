@@ -303,10 +303,11 @@ StressBooks& StressBooks::operator+=(const StressBooks& other) {
 
 namespace {
 
+/// One function for both, so that the compiler has one place to build each law's batch into.
 template <int Dim>
-void update(const Block<Dim>& block, const UpdatedColumns<Dim>& to, PointRange range,
-            const PointIncrements<Dim>& increments, int at, double dt, const IntegrationSettings& settings,
-            StressBooks& books, const WaveSettings& waves) {
+[[gnu::noinline]] void update(const Block<Dim>& block, const UpdatedColumns<Dim>& to, PointRange range,
+                              const PointIncrements<Dim>& increments, int at, double dt,
+                              const IntegrationSettings& settings, StressBooks& books, const WaveSettings& waves) {
   std::visit(
       [&]<class Model>(const Model& model) {
         if constexpr (Averaged<Model>) {
