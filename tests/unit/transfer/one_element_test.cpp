@@ -4,116 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <map>
 #include <type_traits>
 #include <vector>
 
-#include "mesh/meshes.hpp"
-#include "mesh/solids.hpp"
+#include "elements.hpp"
 #include "scarp/mesh/with_basis.hpp"
 #include "scarp/transfer/nodes_to_points.hpp"
 #include "scarp/transfer/points_to_nodes.hpp"
 
 namespace scarp::test {
 namespace {
-
-/// A mesh, an element inside it, and its name.
-template <int Dim>
-struct Case {
-  std::string name;
-  Mesh<Dim> mesh;
-  int element;
-};
-
-/// An element inside the mesh of the unit square or cube, of this type.
-template <int Dim>
-int inner_element(const Mesh<Dim>& mesh, ElementType type) {
-  for (int e = 0; e < mesh.element_count(); ++e) {
-    bool inside = mesh.types[e] == type;
-    for (const int n : mesh.element_nodes(e)) {
-      for (const double x : mesh.nodes[n]) inside = inside && x > 0.2 && x < 0.8;
-    }
-    if (inside) return e;
-  }
-  throw std::runtime_error("the mesh has no such element");
-}
-
-std::vector<Case<2>> plane_cases() {
-  std::vector<Case<2>> all;
-  for (const auto& [name, functions] :
-       {std::pair{"grid", GridFunctions::linear}, std::pair{"gimp", GridFunctions::gimp},
-        std::pair{"b-spline", GridFunctions::b_spline}})
-    all.push_back({name, make_grid({0, 0}, {1, 1}, {5, 5}, functions), 12});
-  auto quads = irregular(6, 0.2, Kind::quads), triangles = irregular(6, 0.2, Kind::triangles);
-  const int q = inner_element(quads, ElementType::Q4), t = inner_element(triangles, ElementType::T3);
-  all.push_back({"quadrilateral", std::move(quads), q});
-  all.push_back({"triangle", std::move(triangles), t});
-  return all;
-}
-std::vector<Case<3>> solid_cases() {
-  std::vector<Case<3>> all;
-  for (const auto& [name, functions] :
-       {std::pair{"grid", GridFunctions::linear}, std::pair{"gimp", GridFunctions::gimp},
-        std::pair{"b-spline", GridFunctions::b_spline}})
-    all.push_back({name, make_grid<3>({0, 0, 0}, {1, 1, 1}, {5, 5, 5}, functions), 62});
-  auto boxes = irregular(6, 0.1, Solid::hexahedra), tetrahedra = irregular(6, 0.1, Solid::tetrahedra);
-  const int b = inner_element(boxes, ElementType::H8), t = inner_element(tetrahedra, ElementType::T4);
-  all.push_back({"hexahedron", std::move(boxes), b});
-  all.push_back({"tetrahedron", std::move(tetrahedra), t});
-  return all;
-}
-
-/// Local coordinates of an element of the geometry: of a place inside, on a side, on an edge, at a corner.
-template <int Dim>
-std::vector<Vec<Dim>> places(ElementType type) {
-  const bool simplex = type == ElementType::T3 || type == ElementType::T4;
-  const double low = simplex ? 0 : -1;
-  Vec<Dim> inside, side, edge, corner;
-  for (int k = 0; k < Dim; ++k) {
-    inside[k] = simplex ? 0.2 + 0.05 * k : 0.3 - 0.4 * k;
-    side[k] = k == 0 ? low : inside[k];
-    edge[k] = k < Dim - 1 ? low : inside[k];
-    corner[k] = low;
-  }
-  return {inside, side, edge, corner};
-}
-
-/// Points at some of these places, each with numbers of its own.
-template <int Dim>
-Points<Dim> points_at(const Case<Dim>& of, const std::type_identity_t<std::vector<Vec<Dim>>>& at) {
-  Block<Dim> block("soil", LinearElastic({1e3, 0.3}));
-  auto& points = block.points;
-  for (auto& column : points.xi) column.resize(1);
-  resize(block, static_cast<int>(at.size()));
-  const auto corner_of = [&](const Vec<Dim>& xi) {
-    Vec<Dim> x{};
-    if (of.mesh.grid) {
-      const auto cell = of.mesh.grid->cell(of.element);
-      for (int k = 0; k < Dim; ++k)
-        x[k] = of.mesh.grid->origin[k] + (cell[k] + 0.5 * (1 + xi[k])) * of.mesh.grid->spacing[k];
-      return x;
-    }
-    with_shape<Dim>(of.mesh.types[of.element], [&]<class Shape>(Shape) {
-      const auto x_i = node_positions<Shape>(of.mesh, of.element);
-      std::array<double, Shape::nodes> N;
-      Shape::shape(xi, N);
-      for (int i = 0; i < Shape::nodes; ++i) {
-        for (int k = 0; k < Dim; ++k) x[k] += N[i] * x_i[i][k];
-      }
-    });
-    return x;
-  };
-  for (int i = 0; i < static_cast<int>(at.size()); ++i) {
-    points.mass[i] = 1 + 0.3 * i;
-    points.volume[i] = points.initial_volume[i] = Dim == 2 ? 0.008 : 0.0008;
-    for (int k = 0; k < Dim; ++k) {
-      points.x[k][i] = corner_of(at[i])[k];
-      points.xi[k][i] = at[i][k];
-      points.v[k][i] = 0.7 - 0.4 * k + 0.9 * i;
-    }
-    for (int c = 0; c < sym_size<Dim>; ++c) points.sigma[c][i] = -3 + 0.5 * c - i;
-  }
-  return points;
-}
 
 /// m, p and F_int of the nodes of the element, in its order.
 template <int Dim>
@@ -225,6 +126,117 @@ void expect_linear_fields(const Case<Dim>& of, Points<Dim> points) {
   }
 }
 
+/// The corners of an element of the geometry.
+template <int Dim>
+std::vector<Vec<Dim>> corners_of(const Mesh<Dim>& mesh, int e) {
+  std::vector<Vec<Dim>> corners;
+  if (mesh.grid) {
+    const auto cell = mesh.grid->cell(e);
+    for (int c = 0; c < 1 << Dim; ++c) {
+      Vec<Dim> x;
+      for (int d = 0; d < Dim; ++d) x[d] = mesh.grid->origin[d] + (cell[d] + (c >> d & 1)) * mesh.grid->spacing[d];
+      corners.push_back(x);
+    }
+  } else {
+    for (const int n : mesh.element_nodes(e)) corners.push_back(mesh.nodes[n]);
+  }
+  return corners;
+}
+template <int Dim>
+int corners_in_common(const Mesh<Dim>& mesh, int a, int b) {
+  int common = 0;
+  for (const auto& x : corners_of(mesh, a)) {
+    for (const auto& y : corners_of(mesh, b)) {
+      double off = 0;
+      for (int d = 0; d < Dim; ++d) off += std::abs(x[d] - y[d]);
+      common += off < 1e-12;
+    }
+  }
+  return common;
+}
+
+template <int Dim>
+bool is_box(const Mesh<Dim>& mesh, int e) {
+  return mesh.grid || mesh.types[e] == ElementType::Q4 || mesh.types[e] == ElementType::H8;
+}
+
+/// Local coordinates of x in an element of the geometry.
+template <int Dim>
+Vec<Dim> local_place(const Mesh<Dim>& mesh, int e, const std::type_identity_t<Vec<Dim>>& x) {
+  Vec<Dim> xi;
+  if (mesh.grid) {
+    const auto cell = mesh.grid->cell(e);
+    for (int d = 0; d < Dim; ++d) xi[d] = 2 * ((x[d] - mesh.grid->origin[d]) / mesh.grid->spacing[d] - cell[d]) - 1;
+    return xi;
+  }
+  with_shape<Dim>(mesh.types[e],
+                  [&]<class Shape>(Shape) { xi = Shape::local_coordinates(node_positions<Shape>(mesh, e), x); });
+  return xi;
+}
+
+/// Local coordinates of a place on each side of an element of the geometry, not in its middle.
+template <int Dim>
+std::vector<Vec<Dim>> places_on_sides(const Mesh<Dim>& mesh, int e) {
+  std::vector<Vec<Dim>> all;
+  if (is_box(mesh, e)) {
+    for (int d = 0; d < Dim; ++d) {
+      for (const double end : {-1.0, 1.0}) {
+        Vec<Dim> xi;
+        xi.fill(0.3);
+        xi[d] = end;
+        all.push_back(xi);
+      }
+    }
+    return all;
+  }
+  for (int d = 0; d <= Dim; ++d) {
+    Vec<Dim> xi;
+    xi.fill(0.3);
+    if (d < Dim) xi[d] = 0;
+    if (d == Dim) xi[0] = 1 - 0.3 * (Dim - 1);
+    all.push_back(xi);
+  }
+  return all;
+}
+
+template <int Dim>
+bool is_inside(const Mesh<Dim>& mesh, int e, const std::type_identity_t<Vec<Dim>>& xi) {
+  double sum = 0;
+  for (const double x : xi) {
+    if (is_box(mesh, e) ? std::abs(x) > 1 + 1e-9 : x < -1e-9) return false;
+    sum += x;
+  }
+  return is_box(mesh, e) || sum < 1 + 1e-9;
+}
+
+/// A point on the side between two elements brings the same m and p to the same nodes from either, and to no others; of
+/// functions with one gradient there (B-splines, GIMP) also F_int.
+template <int Dim>
+void expect_same_from_both_sides(const Case<Dim>& of, bool smooth) {
+  int neighbours = 0;
+  for (const auto& xi : places_on_sides(of.mesh, of.element)) {
+    const auto point = points_at(of, {xi});
+    for (int other = 0; other < of.mesh.element_count(); ++other) {
+      if (other == of.element || corners_in_common(of.mesh, of.element, other) < Dim) continue;
+      const Vec<Dim> xi_there = local_place(of.mesh, other, position_of(point, 0));
+      if (!is_inside(of.mesh, other, xi_there)) continue;
+      ++neighbours;
+      std::map<int, std::array<double, transfer::node_sums<Dim>>> here, there;
+      const Case<Dim> from{of.name, of.mesh, other};
+      const auto own = to_nodes(of, point), others = to_nodes(from, points_at(from, {xi_there}));
+      for (std::size_t n = 0; n < own.size(); ++n) here[of.mesh.element_nodes(of.element)[n]] = own[n];
+      for (std::size_t n = 0; n < others.size(); ++n) there[of.mesh.element_nodes(other)[n]] = others[n];
+      for (const auto& [a, b] : {std::pair{here, there}, std::pair{there, here}}) {
+        for (const auto& [n, sums] : a) {
+          for (int q = 0; q < 1 + (smooth ? 2 : 1) * Dim; ++q)
+            EXPECT_NEAR(sums[q], b.contains(n) ? b.at(n)[q] : 0, 1e-12) << of.name << " " << q;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(neighbours, static_cast<int>(places_on_sides(of.mesh, of.element).size()));
+}
+
 template <int Dim>
 void expect_all(const std::vector<Case<Dim>>& cases) {
   for (const auto& of : cases) {
@@ -235,6 +247,7 @@ void expect_all(const std::vector<Case<Dim>>& cases) {
       expect_sums(of, points_at(of, {all[i]}));
       expect_linear_fields(of, points_at(of, {all[i]}));
     }
+    expect_same_from_both_sides(of, of.name == "gimp" || of.name == "b-spline");
     SCOPED_TRACE(of.name + ", several points");
     expect_sums(of, points_at(of, {all[0], all[1]}));
     expect_sums(of, points_at(of, all));

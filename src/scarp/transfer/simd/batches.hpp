@@ -52,7 +52,8 @@ inline constexpr int row_size = static_cast<int>(sizeof(Row<n>) / sizeof(double)
 template <int Dim, int K>
 using NodeBatch = typename detail::SizedBatch<(K <= 4 ? 4 : 1 << Dim)>::type;
 
-/// A number of each of K local nodes, in as many batches as it takes; lanes behind the last node are zero.
+/// A number of each of K local nodes, in as many batches as it takes; what is in lanes behind the last node counts for
+/// nothing.
 template <int Dim, int K>
 using AtNodes = std::array<NodeBatch<Dim, K>, (K + NodeBatch<Dim, K>::size - 1) / NodeBatch<Dim, K>::size>;
 
