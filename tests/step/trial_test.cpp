@@ -34,17 +34,20 @@ void add(Bits& all, const Array& column) {
 template <int Dim>
 Bits bits_of(Body<Dim>& body) {
   Bits all;
-  for (auto& block : body.blocks) {
-    for_each_column(block, [&](const auto& column) { add(all, column); });
-    add(all, block.order);
+  for (auto& field : body.fields) {
+    for (auto& block : field.blocks) {
+      for_each_column(block, [&](const auto& column) { add(all, column); });
+      add(all, block.order);
+    }
+    for (int k = 0; k < field.assembly.size(); ++k) {
+      add(all, field.nodes.motion[k].row);
+      add(all, field.nodes.a_dt[k]);
+      all.push_back(std::bit_cast<std::uint64_t>(field.nodes.node[k].m));
+    }
+    const auto& buffers = field.buffers;
+    for (const auto* column : {&buffers.weight, &buffers.correction, &buffers.sums}) add(all, *column);
+    add(all, buffers.left);
   }
-  for (int k = 0; k < body.assembly.size(); ++k) {
-    add(all, body.buffers.motion[k].row);
-    add(all, body.buffers.a_dt[k]);
-    all.push_back(std::bit_cast<std::uint64_t>(body.buffers.node[k].m));
-  }
-  for (const auto* column : {&body.buffers.weight, &body.buffers.correction, &body.buffers.sums}) add(all, *column);
-  add(all, body.buffers.left);
   return all;
 }
 
@@ -64,16 +67,18 @@ Bits bits_of(const exec::UpdatedColumns<Dim>& columns, const Column& volume) {
 template <int Dim>
 Bits bits_of(BodyTrial<Dim>& trial) {
   Bits all;
-  for (auto& block : trial.blocks) {
-    const auto more = bits_of<Dim>(exec::UpdatedColumns<Dim>(block), block.volume);
-    all.insert(all.end(), more.begin(), more.end());
+  for (auto& field : trial.fields) {
+    for (auto& block : field.blocks) {
+      const auto more = bits_of<Dim>(exec::UpdatedColumns<Dim>(block), block.volume);
+      all.insert(all.end(), more.begin(), more.end());
+    }
   }
   return all;
 }
 template <int Dim>
 Bits updated_bits_of(Body<Dim>& body) {
   Bits all;
-  for (auto& block : body.blocks) {
+  for (auto& block : body.blocks()) {
     const auto more = bits_of<Dim>(exec::UpdatedColumns<Dim>(block), block.points.volume);
     all.insert(all.end(), more.begin(), more.end());
   }
@@ -84,27 +89,31 @@ Bits updated_bits_of(Body<Dim>& body) {
 template <int Dim>
 void displace_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
   const Scheme& scheme = settings.scheme;
-  prepare_threads(body);
-  step::map_points_to_elements(body, settings, books);
-  step::accelerate_nodes(body, dt, settings, books);
-  if (scheme.two_terms) {
-    step::sum_with_mass_matrix<2 * Dim>(body, 0, books);
-    step::filter_changes(body, dt, settings, books);
-    step::sum_with_mass_matrix<2 * Dim>(body, 0, books);
-  } else {
-    step::sum_with_mass_matrix<Dim>(body, 0, books);
-  }
-  step::velocities_of_nodes(body, dt, settings, books);
-  if (scheme.filters_motion()) {
-    step::sum_with_mass_matrix<2 * Dim>(body, Dim, books);
-    step::filter_displacements(body, settings, books);
+  for (auto& field : body.fields) {
+    prepare_threads(field);
+    step::map_points_to_elements(body, field, settings, books);
+    step::accelerate_nodes(body, field, dt, settings, books);
+    if (scheme.two_terms) {
+      step::sum_with_mass_matrix<2 * Dim>(body, field, 0, books);
+      step::filter_changes(field, dt, settings, books);
+      step::sum_with_mass_matrix<2 * Dim>(body, field, 0, books);
+    } else {
+      step::sum_with_mass_matrix<Dim>(body, field, 0, books);
+    }
+    step::velocities_of_nodes(body, field, dt, settings, books);
+    if (scheme.filters_motion()) {
+      step::sum_with_mass_matrix<2 * Dim>(body, field, Dim, books);
+      step::filter_displacements(body, field, settings, books);
+    }
   }
 }
 
 template <int Dim>
 void scale_displacements(Body<Dim>& body, double factor) {
-  for (int k = 0; k < body.assembly.size(); ++k) {
-    for (int j = 0; j < Dim; ++j) body.buffers.motion[k].du(j) *= factor;
+  for (auto& field : body.fields) {
+    for (auto& motion : field.nodes.motion) {
+      for (int j = 0; j < Dim; ++j) motion.du(j) *= factor;
+    }
   }
 }
 
@@ -145,8 +154,11 @@ Met expect_same_bits(Body<Dim> body, int steps, const StepSettings& settings, do
   commit(body, other);
   EXPECT_TRUE(before == bits_of(body)) << "a trial that is taken back";
 
-  if (step::uses_patches(body, settings)) step::find_dilations(body, settings, books);
-  step::strain_stress_and_motion(body, dt, settings, books);
+  for (auto& field : body.fields) {
+    if (step::uses_patches(body, settings)) step::find_dilations(body, field, settings, books);
+    step::strain_stress_and_motion(body, field, dt, settings, books);
+  }
+  step::close_books(dt, settings, books);
   EXPECT_TRUE(first == updated_bits_of(body)) << "the fused step has other bits";
   EXPECT_EQ(trial.stress.work, books.stress.work);
   EXPECT_EQ(trial.stress.damping, books.stress.damping);
@@ -154,10 +166,10 @@ Met expect_same_bits(Body<Dim> body, int steps, const StepSettings& settings, do
   EXPECT_EQ(trial.stress.failures, books.stress.failures);
   EXPECT_EQ(trial.stress.critical_dt, books.stress.critical_dt);
   for (int j = 0; j < Dim; ++j) {
-    EXPECT_TRUE(trial.moved[0].points.x[j] == body.blocks[0].points.x[j]);
-    EXPECT_TRUE(trial.moved[0].points.v[j] == body.blocks[0].points.v[j]);
+    EXPECT_TRUE(trial.fields[0].moved[0].points.x[j] == body.blocks()[0].points.x[j]);
+    EXPECT_TRUE(trial.fields[0].moved[0].points.v[j] == body.blocks()[0].points.v[j]);
   }
-  const auto& means = body.buffers.mean_dilatation;
+  const auto& means = body.fields[0].buffers.mean_dilatation;
   return {trial.stress.most_substeps, trial.stress.separated, books.massless_nodes,
           std::count(means.begin(), means.end(), 1) > 0};
 }
@@ -229,7 +241,7 @@ TEST(Trial, OfAUserRoutineWithAStateOfItsOwn) {
                         {"state", state}};
   const auto umat = make_model("umat", {}, settings).model.value();
   auto body = soil<2>(plane_mesh(Background::grid, 12), umat, 20, 1.0);
-  auto& block = body.blocks[0];
+  auto& block = body.blocks()[0];
   const auto& law = std::get<Umat>(block.model);
   for (int i = 0; i < block.size(); ++i) {
     std::vector<Problem> problems;
@@ -246,7 +258,7 @@ TEST(Trial, OfSoilThatSoftensOverALength) {
 // Nodes with less than a mass that is set so that some have are left out, and move with the others of an element.
 TEST(Trial, OfElementsWithNodesWithoutMass) {
   auto body = soil<2>(plane_mesh(Background::triangles, 12), elastic(), 20, 0.0);
-  body.least_mass = 0.5 * body.blocks[0].points.mass[0];
+  body.fields[0].least_mass = 0.5 * body.blocks()[0].points.mass[0];
   EXPECT_GT(expect_same_bits(std::move(body), 1, standard()).massless_nodes, 0);
 }
 

@@ -53,7 +53,7 @@ struct Hollow {
   Hollow(const Region<Dim>& region, double spacing, const Body<Dim>& body) {
     const BoxOf<Dim> box = bounds(region);
     std::vector<bool> holds(body.mesh->types.size(), false);
-    for (const auto& block : body.blocks) {
+    for (const auto& block : body.blocks()) {
       for (const int e : block.points.element) holds[e] = true;
     }
     for (int e = 0; e < body.mesh->element_count(); ++e) {
@@ -86,7 +86,7 @@ double small_one(std::vector<double> edges) {
 template <int Dim>
 std::string points_per_element(const Body<Dim>& body) {
   std::vector<int> counts(body.mesh->types.size(), 0);
-  for (const auto& block : body.blocks) {
+  for (const auto& block : body.blocks()) {
     for (const int e : block.points.element) ++counts[e];
   }
   int least = 0, filled = 0;
@@ -101,7 +101,7 @@ std::string points_per_element(const Body<Dim>& body) {
 template <int Dim>
 void warn_of_sparse_points(const input::CaseOf<Dim>& input, const Body<Dim>& body) {
   for (std::size_t r = 0; r < input.regions.size(); ++r) {
-    const auto& element = body.blocks[r].points.element;
+    const auto& element = body.blocks()[r].points.element;
     if (element.empty()) continue;
     const auto& region = input.regions[r];
     std::vector<double> edges(element.size());

@@ -9,13 +9,13 @@ namespace scarp::step {
 
 /// The volume strain of all points of an element.
 template <class Basis>
-double mean_dilation(const Body<Basis::dim>& body, int slot, const typename Basis::Cell& cell,
-                     const transfer::NodeRows<Basis>& motion) {
+double mean_dilation(const Body<Basis::dim>& body, const VelocityField<Basis::dim>& field, int slot,
+                     const typename Basis::Cell& cell, const transfer::NodeRows<Basis>& motion) {
   using Means = transfer::Means<Basis>;
   if constexpr (is_simplex<Basis>) {
-    return mean_over_patch(body, body.active.element[slot], &PatchShare::theta);
+    return mean_over_patch(body, field, field.active.element[slot], &PatchShare::theta);
   } else if constexpr (transfer::keeps_means<Basis>) {
-    return Means::dilation(body.buffers.mean_gradient.data() + slot * Means::size, motion, Basis::dim);
+    return Means::dilation(field.buffers.mean_gradient.data() + slot * Means::size, motion, Basis::dim);
   } else {
     return transfer::mean_dilation<Basis>(cell, motion);
   }
@@ -24,29 +24,29 @@ double mean_dilation(const Body<Basis::dim>& body, int slot, const typename Basi
 /// The motion of its nodes and its quadrature. Nodes without mass are mended with `mends_massless`, for which
 /// `mean_motion` is room that must outlive the answer; with `averaged` the volume strain of its points is a mean.
 template <class Basis, class Averaged>
-transfer::ElementMotion<Basis> element_motion(const Body<Basis::dim>& body, int slot, const typename Basis::Cell& cell,
-                                              bool mends_massless, Averaged averaged,
-                                              transfer::Motion<Basis::dim>& mean_motion) {
-  const auto& buffers = body.buffers;
-  transfer::ElementMotion<Basis> element{motion_of_nodes<Basis>(body, slot),
+transfer::ElementMotion<Basis> element_motion(const Body<Basis::dim>& body, const VelocityField<Basis::dim>& field,
+                                              int slot, const typename Basis::Cell& cell, bool mends_massless,
+                                              Averaged averaged, transfer::Motion<Basis::dim>& mean_motion) {
+  const auto& buffers = field.buffers;
+  transfer::ElementMotion<Basis> element{motion_of_nodes<Basis>(field, slot),
                                          buffers.correction.data() + slot * buffers.correction_row,
-                                         buffers.weight[slot], body.mesh->size[body.active.element[slot]]};
+                                         buffers.weight[slot], body.mesh->size[field.active.element[slot]]};
   if constexpr (is_simplex<Basis>) element.least_per_mass = buffers.bounds.least_per_mass[slot];
   if constexpr (is_axisymmetric<Basis>) {
-    element.hoop_correction = buffers.hoop_correction.data() + slot * padded_row(body.assembly.row());
+    element.hoop_correction = buffers.hoop_correction.data() + slot * padded_row(field.assembly.row());
   }
-  if (mends_massless) mend_massless<Basis>(body, slot, element.motion, mean_motion);
-  if (averaged) element.mean_dilation = mean_dilation<Basis>(body, slot, cell, element.motion);
+  if (mends_massless) mend_massless<Basis>(field, slot, element.motion, mean_motion);
+  if (averaged) element.mean_dilation = mean_dilation<Basis>(body, field, slot, cell, element.motion);
   return element;
 }
 
 /// The change of velocity of pure FLIP of each of its nodes, where points book PIC.
 template <bool pic, class Basis>
-transfer::NodeRows<Basis> flip_changes(const Body<Basis::dim>& body, int slot) {
+transfer::NodeRows<Basis> flip_changes(const VelocityField<Basis::dim>& field, int slot) {
   transfer::NodeRows<Basis> a_dt{};
   if constexpr (pic) {
-    const int* k = body.assembly.nodes_of(slot);
-    for (int i = 0; i < Basis::nodes; ++i) a_dt[i] = body.buffers.a_dt[k[i]].data();
+    const int* k = field.assembly.nodes_of(slot);
+    for (int i = 0; i < Basis::nodes; ++i) a_dt[i] = field.nodes.a_dt[k[i]].data();
   }
   return a_dt;
 }

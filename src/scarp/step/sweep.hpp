@@ -30,7 +30,8 @@ MoveRules move_rules(const Scheme& scheme, double dt, const StepBooks<Dim>& book
 /// that is asked for: their increments, from the place of the first on, for the stress update that is to follow.
 /// `block` may be another than the body's, with its points in the same order.
 template <int Dim>
-void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, const MoveRules& rules,
-                     PointIncrements<Dim>& increments, exec::GapSharing<Dim>* sharing, StepBooks<Dim>& books);
+void strain_and_move(Body<Dim>& body, VelocityField<Dim>& field, Block<Dim>& block, int first, int last,
+                     const MoveRules& rules, PointIncrements<Dim>& increments, exec::GapSharing<Dim>* sharing,
+                     StepBooks<Dim>& books);
 
 }  // namespace scarp::step

@@ -11,9 +11,9 @@ namespace scarp {
 namespace {
 
 template <int Dim>
-std::int64_t count_massless(const Body<Dim>& body) {
+std::int64_t count_massless(const VelocityField<Dim>& field) {
   std::int64_t count = 0;
-  for (int k = 0; k < body.assembly.size(); ++k) count += body.buffers.node[k].m == 0;
+  for (int k = 0; k < field.assembly.size(); ++k) count += field.nodes.node[k].m == 0;
   return count;
 }
 
@@ -29,53 +29,65 @@ void copy_moved(const Block<Dim>& from, Block<Dim>& to) {
 }
 
 template <int Dim>
-void prepare(BodyTrial<Dim>& trial, const Body<Dim>& body) {
-  const std::size_t blocks = body.blocks.size();
+void prepare(FieldTrial<Dim>& trial, const VelocityField<Dim>& field) {
+  const std::size_t blocks = field.blocks.size();
   trial.blocks.resize(blocks);
   while (trial.moved.size() > blocks) trial.moved.pop_back();
   for (std::size_t b = trial.moved.size(); b < blocks; ++b)
-    trial.moved.emplace_back(body.blocks[b].name, body.blocks[b].model);
+    trial.moved.emplace_back(field.blocks[b].name, field.blocks[b].model);
   for (std::size_t b = 0; b < blocks; ++b) {
-    exec::prepare(trial.blocks[b], body.blocks[b]);
-    copy_moved(body.blocks[b], trial.moved[b]);
+    exec::prepare(trial.blocks[b], field.blocks[b]);
+    copy_moved(field.blocks[b], trial.moved[b]);
   }
+}
+
+template <int Dim>
+exec::StressBooks form_trial(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings,
+                             FieldTrial<Dim>& trial) {
+  const Scheme& scheme = settings.scheme;
+  prepare_threads(field);
+  prepare(trial, field);
+  StepBooks<Dim> books;
+  books.massless_nodes = count_massless(field);
+  step::MoveRules rules = step::move_rules(scheme, dt, books);
+  rules.stay_there = true;
+  if (step::uses_patches(body, settings)) step::find_dilations(body, field, settings, books);
+  const auto trial_of_block = [&](std::size_t b, int first, int last, StepBooks<Dim>& part) {
+    const Block<Dim>& block = field.blocks[b];
+    Block<Dim>& moved = trial.moved[b];
+    auto& increments = field.buffers.increments[exec::thread_number()];
+    exec::GapSharing<Dim> gaps(block, moved.points.volume, increments, body.mesh->axisymmetric ? 3 : Dim, dt);
+    auto* sharing = scheme.shares_gaps && gaps.active() ? &gaps : nullptr;
+    step::strain_and_move(body, field, moved, first, last, rules, increments, sharing, part);
+    const PointRange range{block.order.data() + block.begin[first], block.begin[last] - block.begin[first]};
+    exec::trial_stresses(block, trial.blocks[b], range, increments, 0, dt, settings.integration, part.stress,
+                         scheme::waves(scheme, is_elastic(block.model), settings.damping));
+    if (sharing) part.stress.work -= sharing->work(exec::UpdatedColumns<Dim>(trial.blocks[b]));
+  };
+  exec::sum_over_chunks(field.active.size(), element_chunk, field.buffers.books, books,
+                        [&](int first, int last, StepBooks<Dim>& part) {
+                          for (std::size_t b = 0; b < field.blocks.size(); ++b) trial_of_block(b, first, last, part);
+                        });
+  for (std::size_t b = 0; b < field.blocks.size(); ++b) std::swap(trial.moved[b].points.volume, trial.blocks[b].volume);
+  return books.stress;
 }
 
 }  // namespace
 
 template <int Dim>
 void form_trial(Body<Dim>& body, double dt, const StepSettings& settings, BodyTrial<Dim>& trial) {
-  const Scheme& scheme = settings.scheme;
-  prepare_threads(body);
-  prepare(trial, body);
-  StepBooks<Dim> books;
-  books.massless_nodes = count_massless(body);
-  step::MoveRules rules = step::move_rules(scheme, dt, books);
-  rules.stay_there = true;
-  if (step::uses_patches(body, settings)) step::find_dilations(body, settings, books);
-  const auto trial_of_block = [&](std::size_t b, int first, int last, StepBooks<Dim>& part) {
-    const Block<Dim>& block = body.blocks[b];
-    Block<Dim>& moved = trial.moved[b];
-    auto& increments = body.buffers.increments[exec::thread_number()];
-    exec::GapSharing<Dim> gaps(block, moved.points.volume, increments, body.mesh->axisymmetric ? 3 : Dim, dt);
-    auto* sharing = scheme.shares_gaps && gaps.active() ? &gaps : nullptr;
-    step::strain_and_move(body, moved, first, last, rules, increments, sharing, part);
-    const PointRange range{block.order.data() + block.begin[first], block.begin[last] - block.begin[first]};
-    exec::trial_stresses(block, trial.blocks[b], range, increments, 0, dt, settings.integration, part.stress,
-                         scheme::waves(scheme, is_elastic(block.model), settings.damping));
-    if (sharing) part.stress.work -= sharing->work(exec::UpdatedColumns<Dim>(trial.blocks[b]));
-  };
-  exec::sum_over_chunks(body.active.size(), element_chunk, body.buffers.books, books,
-                        [&](int first, int last, StepBooks<Dim>& part) {
-                          for (std::size_t b = 0; b < body.blocks.size(); ++b) trial_of_block(b, first, last, part);
-                        });
-  for (std::size_t b = 0; b < body.blocks.size(); ++b) std::swap(trial.moved[b].points.volume, trial.blocks[b].volume);
-  trial.stress = books.stress;
+  trial.fields.resize(body.fields.size());
+  trial.stress = {};
+  for (std::size_t f = 0; f < body.fields.size(); ++f)
+    trial.stress += form_trial(body, body.fields[f], dt, settings, trial.fields[f]);
 }
 
 template <int Dim>
 void commit(Body<Dim>& body, BodyTrial<Dim>& trial) {
-  for (std::size_t b = 0; b < body.blocks.size(); ++b) exec::commit(body.blocks[b], trial.blocks[b]);
+  for (std::size_t f = 0; f < body.fields.size(); ++f) {
+    auto& blocks = body.fields[f].blocks;
+    for (std::size_t b = 0; b < blocks.size(); ++b) exec::commit(blocks[b], trial.fields[f].blocks[b]);
+  }
 }
 
 template void form_trial<2>(Body<2>&, double, const StepSettings&, BodyTrial<2>&);

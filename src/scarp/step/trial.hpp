@@ -11,18 +11,22 @@
 
 namespace scarp {
 
-/// Stress, state and volume that the points of a body have at t^n + dt, if its nodes move as they are said to.
+/// What the points of a velocity field have at t^n + dt, if its nodes move as they are said to.
+template <int Dim>
+struct FieldTrial {
+  std::vector<exec::TrialState<Dim>> blocks;  ///< stress, state and volume; in the order of the field's blocks
+  std::vector<Block<Dim>> moved;  ///< x, v (and ξ, C) at t^n + dt by eqs 6 and 16 to 19, in the points' order; no more
+};
 template <int Dim>
 struct BodyTrial {
-  std::vector<exec::TrialState<Dim>> blocks;  ///< in the order of the body's
-  std::vector<Block<Dim>> moved;  ///< x, v (and ξ, C) at t^n + dt by eqs 6 and 16 to 19, in the points' order; no more
-  exec::StressBooks stress;
+  std::vector<FieldTrial<Dim>> fields;
+  exec::StressBooks stress;  ///< of all
 };
 
 /// Steps 6 to 9 (eqs 9 to 15, and the law of section 3) from the state at t^n and the displacements du_i [m] that the
-/// nodes have in body.buffers.motion; those of conditions are up to the caller. Elements are the quadrature that the
-/// last step 1 has made of them. Points, their blocks' columns, and nodes are left as they are, so that the same du_i
-/// give the same trial, to the last bit, as often as they are asked for and on any number of threads, and that of
+/// nodes have in each field's nodes.motion; those of conditions are up to the caller. Elements are the quadrature that
+/// the last step 1 has made of them. Points, their blocks' columns, and nodes are left as they are, so that the same
+/// du_i give the same trial, to the last bit, as often as they are asked for and on any number of threads, and that of
 /// advance() for its du_i. `trial` may be one of an earlier call, whose memory is then used again.
 template <int Dim>
 void form_trial(Body<Dim>& body, double dt, const StepSettings& settings, BodyTrial<Dim>& trial);

@@ -1,4 +1,4 @@
-// What a node has in a step, as numbers beside each other: sums over points, and what moves these.
+// What a node has for the points of its elements, as numbers beside each other.
 #pragma once
 
 #include <array>
@@ -7,11 +7,6 @@
 #include "scarp/transfer/simd/batches.hpp"
 
 namespace scarp::transfer {
-
-/// What a node receives in step 1, as numbers beside each other: m (eq. 1), p (eq. 2), F_int (eq. 4); in space one more
-/// that is not used.
-template <int Dim>
-inline constexpr int node_sums = Dim == 2 ? 5 : 8;
 
 /// What moves the points, of each node: c_i, by which their velocity changes (eq. 6; step.cpp), and du_i = v_i dt
 /// (eq. 16), beside each other. Whole rows, so that they may be loaded as such.

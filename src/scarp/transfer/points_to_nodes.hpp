@@ -5,7 +5,7 @@
 #include <array>
 
 #include "scarp/transfer/mass_matrix.hpp"
-#include "scarp/transfer/node_values.hpp"
+#include "scarp/transfer/node_sums.hpp"
 #include "scarp/transfer/quadrature.hpp"
 #include "scarp/transfer/simd/shapes_at_points.hpp"
 
@@ -198,11 +198,12 @@ inline void add_to_nodes(const ElementSums<Basis>& sums, const std::array<Nodal<
   const auto m = total<Basis>(sums.m);
   const auto p = totals<Basis>(sums.p);
   repeat<nodal_batches<Basis>>([&](auto b) {
-    std::array<Lane<Basis>, node_sums<Dim>> values;
-    values[0] = m[b];
+    using Sums = NodeSums<Dim>;
+    std::array<Lane<Basis>, Sums::size> values;
+    values[Sums::mass_at] = m[b];
     repeat<Dim>([&](auto j) {
-      values[1 + j] = p[j][b];
-      values[1 + Dim + j] = F[j][b];
+      values[Sums::momentum_at + j] = p[j][b];
+      values[Sums::internal_force_at + j] = F[j][b];
     });
     if constexpr (Dim == 3) values[7] = Lane<Basis>(0.0);
     add_to_places<std::min(W, Basis::nodes - b * W)>(values, place + b * W, nodes);
