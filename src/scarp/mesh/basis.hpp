@@ -1,4 +1,5 @@
 // Bases: the functions N_i that carry fields from the nodes to the points of an element and back. A basis B has
+// (mesh/basis_concept.hpp names what one lacks)
 //   B::dim, B::nodes         the dimension and the number of local nodes that a point of an element touches
 //   B::stores_local          whether points keep their local coordinates (where finding them is dear)
 //   B::Cell(mesh, e)         what it knows of element e, made once per element and sweep, with
@@ -28,16 +29,6 @@
 #include "scarp/tensor/batch.hpp"
 
 namespace scarp {
-
-template <class B>
-concept Basis = requires {
-  { B::dim } -> std::convertible_to<int>;
-  { B::nodes } -> std::convertible_to<int>;
-  { B::stores_local } -> std::convertible_to<bool>;
-  { B::has_domains } -> std::convertible_to<bool>;
-  { B::corrects } -> std::convertible_to<bool>;
-  typename B::Cell;
-};
 
 namespace detail {
 

@@ -3,10 +3,23 @@
 
 #include "scarp/mesh/axisymmetric.hpp"
 #include "scarp/mesh/basis.hpp"
+#include "scarp/mesh/basis_concept.hpp"
 #include "scarp/mesh/grid_bases.hpp"
 
 namespace scarp {
 namespace detail {
+
+// A basis that is added below is added here: it is told what it lacks.
+template <int Dim>
+constexpr bool grids_are_complete() {
+  return basis::is_complete<GridLinear<Dim>>() && basis::is_complete<GridGimp<Dim>>() &&
+         basis::is_complete<GridSpline<Dim>>();
+}
+static_assert(grids_are_complete<2>() && grids_are_complete<3>());
+static_assert(basis::is_complete<Linear<T3>>() && basis::is_complete<Linear<Q4>>() &&
+              basis::is_complete<Linear<T4>>() && basis::is_complete<Linear<H8>>());
+static_assert(basis::is_complete<Axisymmetric<GridLinear<2>>>() && basis::is_complete<Axisymmetric<GridSpline<2>>>() &&
+              basis::is_complete<Axisymmetric<Linear<T3>>>() && basis::is_complete<Axisymmetric<Linear<Q4>>>());
 
 template <int Dim, class F>
 inline void with_flat_basis(const Mesh<Dim>& mesh, const int* elements, int first, int last, F&& f) {

@@ -65,9 +65,60 @@ inline const std::array<Column, sym_size<Dim>>& felt_stress(const Points<Dim>& p
   return points.sigma_ahead[0].empty() ? points.sigma : points.sigma_ahead;
 }
 
+/// Components of σ of some points. σ_zz does no work in plane strain; Mandel components of shear are √2 times the
+/// stress.
+template <class Basis, class Lanes>
+inline auto felt_at(const std::array<Column, sym_size<Basis::dim>>& felt, const Lanes& p) {
+  using T = PointBatch<Basis::dim>;
+  return make_array<sym_size<Basis::dim>>([&](auto c) {
+    constexpr bool used = Basis::dim == 3 || c != 2 || is_axisymmetric<Basis>;
+    if constexpr (used) return T(c < 3 ? 1 : 1 / sqrt2) * p.load(felt[c]);
+    return T(0.0);
+  });
+}
+
+/// Takes the mean stress s_p = tr σ_p / d of some points, in part γ_p where they have domains, out of σ_p and sums it
+/// up by itself; sets the volume that takes part in it.
+template <class Basis, class Lanes, class T, std::size_t n>
+inline void take_mean_apart(const ShapesAtPoints<Basis>& shapes, const Points<Basis::dim>& points, const Lanes& p,
+                            const T& volume, std::array<T, n>& felt_here, T& volume_of_mean, ElementSums<Basis>& sums) {
+  T mean = felt_here[0] + felt_here[1];
+  if constexpr (mean_directions<Basis> == 3) mean += felt_here[2];
+  mean *= T(1.0 / mean_directions<Basis>);
+  if constexpr (keeps_means<Basis>) {
+    const T share = share_of_mean<Basis>(local_coordinates<Basis>(shapes.cell(), points, p));
+    mean *= share;
+    volume_of_mean *= share;
+    sums.Omega_share += volume_of_mean;
+  }
+  repeat<mean_directions<Basis>>([&](auto j) { felt_here[j] -= mean; });
+  sums.Omega_mean = fma(volume, mean, sums.Omega_mean);
+}
+
+/// F_i,r += σ_θθ N_i / r Ω_p, of `Omega_sigma` = Ω_p σ_θθ, and Σ Ω_p N_i / r.
+template <class Basis, class W>
+inline void add_hoop(const Shapes<Basis>& here, const W& Omega, const W& r, const W& Omega_sigma,
+                     ElementSums<Basis>& sums) {
+  const W per_r = select(Omega > W(0.0), W(1.0) / r, W(0.0));  // lanes without a point have no r
+  repeat<nodal_batches<Basis>>([&](auto b) {
+    const W hoop = per_r * here.N[b];
+    sums.hoop[0][b] = fma(Omega, hoop, sums.hoop[0][b]);
+    sums.F[0][b] = fma(hoop, Omega_sigma, sums.F[0][b]);
+  });
+}
+
+/// M_ij += m_p N_i N_j, in rows of j = i + k.
+template <class Basis>
+inline void add_mass_matrix(const Shapes<Basis>& here, const WideNodal<Basis>& mN, ElementSums<Basis>& sums) {
+  repeat<ElementSums<Basis>::rows>([&](auto k) {
+    const auto N = rotated<Basis::nodes, k>(here.N);
+    repeat<nodal_batches<Basis>>([&](auto b) { sums.M[k][b] = fma(mN[b], N[b], sums.M[k][b]); });
+  });
+}
+
 /// Step 1: m_i += Σ m_p N_i, p_i += Σ m_p v_p N_i, F_i^int += Σ B_iᵀ σ_p Ω_p (eqs 1, 2, 4), and to the radial component
 /// Σ σ_θθ N_i / r Ω_p in a body of revolution. Gravity (eq. 3) is uniform, so F_i^grav = m_i g is formed at the node.
-/// With `apart` the mean stress s_p = tr σ_p / d of each point is left out of σ_p and summed up by itself.
+/// With `apart` mean stresses are left out and summed up by themselves.
 /// NodePlaces instead of NoPlaces: the points bring v_p + C_p (x_i − x_p) in place of v_p.
 template <class Basis, class Places, class Apart>
 inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Places& places, const Points<Basis::dim>& points,
@@ -86,26 +137,9 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Places& p
     sums.m_v2 = fma(p.load(points.mass), v2, sums.m_v2);
     sums.Omega += volume;
     sums.correction.add_batch(shapes, points, p, volume);
-    auto felt_here = make_array<components>([&](auto c) {
-      // σ_zz does no work in plane strain. Mandel components of shear are √2 times the stress.
-      constexpr bool used = Dim == 3 || c != 2 || is_axisymmetric<Basis>;
-      if constexpr (used) return T(c < 3 ? 1 : 1 / sqrt2) * p.load(felt[c]);
-      return T(0.0);
-    });
+    auto felt_here = felt_at<Basis>(felt, p);
     T volume_of_mean = volume;
-    if (apart) {
-      T mean = felt_here[0] + felt_here[1];
-      if constexpr (mean_directions<Basis> == 3) mean += felt_here[2];
-      mean *= T(1.0 / mean_directions<Basis>);
-      if constexpr (keeps_means<Basis>) {
-        const T share = share_of_mean<Basis>(local_coordinates<Basis>(shapes.cell(), points, p));
-        mean *= share;
-        volume_of_mean *= share;
-        sums.Omega_share += volume_of_mean;
-      }
-      repeat<mean_directions<Basis>>([&](auto j) { felt_here[j] -= mean; });
-      sums.Omega_mean = fma(volume, mean, sums.Omega_mean);
-    }
+    if (apart) take_mean_apart<Basis>(shapes, points, p, volume, felt_here, volume_of_mean, sums);
     const auto volume_of_mean_of = OfPoints<Basis>(volume_of_mean);
     const auto sigma_of = make_array<components>([&](auto c) {
       sums.Omega_sigma[c] = fma(volume, felt_here[c], sums.Omega_sigma[c]);
@@ -147,18 +181,9 @@ inline void points_to_nodes(const ShapesAtPoints<Basis>& shapes, const Places& p
             });
           }
         }
-        if constexpr (is_axisymmetric<Basis>) {
-          const W r = of_points<Basis>(p, points.x[0]).of(l), per_r = select(Omega > W(0.0), W(1.0) / r, W(0.0));
-          repeat<nodal_batches<Basis>>([&](auto b) {
-            const W hoop = per_r * here.N[b];
-            sums.hoop[0][b] = fma(Omega, hoop, sums.hoop[0][b]);
-            sums.F[0][b] = fma(hoop, sigma[2], sums.F[0][b]);
-          });
-        }
-        repeat<ElementSums<Basis>::rows>([&](auto k) {
-          const auto N = rotated<Basis::nodes, k>(here.N);
-          repeat<nodal_batches<Basis>>([&](auto b) { sums.M[k][b] = fma(mN[b], N[b], sums.M[k][b]); });
-        });
+        if constexpr (is_axisymmetric<Basis>)
+          add_hoop(here, Omega, of_points<Basis>(p, points.x[0]).of(l), sigma[2], sums);
+        add_mass_matrix(here, mN, sums);
       });
     });
   });
