@@ -316,9 +316,8 @@ void update_stresses(Block<Dim>& block, PointRange range, const Strains<Dim>& st
 }
 
 template <int Dim>
-double critical_time_step(const Block<Dim>& block, const std::vector<double>& element_size,
-                          const ActiveElements& active, const Column& weight, const Column& least_per_mass,
-                          const WaveSettings& waves) {
+double critical_time_step(const Block<Dim>& block, const Mesh<Dim>& mesh, const ActiveElements& active,
+                          const Column& weight, const Column& least_per_mass, const WaveSettings& waves) {
   const auto& points = block.points;
   double dt = std::numeric_limits<double>::infinity();
   for (int i = 0; i < block.size(); ++i) {
@@ -329,7 +328,7 @@ double critical_time_step(const Block<Dim>& block, const std::vector<double>& el
       for (int j = 0; j < Dim; ++j) v2 += points.v[j][i] * points.v[j][i];
       const int e = points.element[i];
       const int slot = active.slot[e];
-      const double h = element_size[e], least = least_per_mass.empty() ? 0.0 : least_per_mass[slot] * h * h;
+      const double h = mesh.size_of(e), least = least_per_mass.empty() ? 0.0 : least_per_mass[slot] * h * h;
       const double per_mass = std::max(std::max(1.0, weight[slot]) * points.volume[i] / points.mass[i], least);
       const double c2 = modulus * per_mass;
       dt = std::min(dt, h / (std::sqrt(c2 * waves.per_limit2(c2 / (h * h))) + std::sqrt(v2)));
@@ -342,9 +341,9 @@ template void update_stresses<2>(Block<2>&, PointRange, const Strains<2>&, int, 
                                  StressBooks&, const WaveSettings&);
 template void update_stresses<3>(Block<3>&, PointRange, const Strains<3>&, int, double, const IntegrationSettings&,
                                  StressBooks&, const WaveSettings&);
-template double critical_time_step<2>(const Block<2>&, const std::vector<double>&, const ActiveElements&, const Column&,
+template double critical_time_step<2>(const Block<2>&, const Mesh<2>&, const ActiveElements&, const Column&,
                                       const Column&, const WaveSettings&);
-template double critical_time_step<3>(const Block<3>&, const std::vector<double>&, const ActiveElements&, const Column&,
+template double critical_time_step<3>(const Block<3>&, const Mesh<3>&, const ActiveElements&, const Column&,
                                       const Column&, const WaveSettings&);
 
 }  // namespace scarp::exec

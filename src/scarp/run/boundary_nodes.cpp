@@ -6,18 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scarp/mesh/build.hpp"
+#include "scarp/mesh/near.hpp"
 #include "scarp/run/cut_elements.hpp"
 
 namespace scarp::run {
-
-template <int Dim>
-double largest_coordinate(const Mesh<Dim>& mesh) {
-  double largest = 0;
-  for (const auto& x : mesh.nodes) {
-    for (const double coordinate : x) largest = std::max(largest, std::abs(coordinate));
-  }
-  return largest;
-}
 
 namespace {
 
@@ -25,27 +18,31 @@ namespace {
 std::vector<int> nodes_on(const Mesh<2>& mesh, const std::array<Vec<2>, 2>& line) {
   const double dx = line[1][0] - line[0][0], dy = line[1][1] - line[0][1], length2 = dx * dx + dy * dy;
   const double tolerance = nearness(mesh, line);
+  Box box;
+  for (int k = 0; k < 2; ++k) {  // with room for what its own corners round off
+    const auto [low, high] = std::minmax(line[0][k], line[1][k]);
+    box.low[k] = low - 2 * tolerance;
+    box.high[k] = high + 2 * tolerance;
+  }
   std::vector<int> nodes;
-  for (int n = 0; n < mesh.node_count(); ++n) {
-    const double rx = mesh.nodes[n][0] - line[0][0], ry = mesh.nodes[n][1] - line[0][1];
+  for_nodes_in(mesh, box, [&](int n, const Vec<2>& x) {
+    const double rx = x[0] - line[0][0], ry = x[1] - line[0][1];
     const double t = std::clamp((rx * dx + ry * dy) / length2, 0.0, 1.0);
     if (std::hypot(rx - t * dx, ry - t * dy) <= tolerance) nodes.push_back(n);
-  }
+  });
   return nodes;
 }
 
 /// Nodes in the box, within round-off of the mesh's size.
 std::vector<int> nodes_in(const Mesh<3>& mesh, const BoxOf<3>& box) {
   const double tolerance = round_off * largest_coordinate(mesh);
-  std::vector<int> nodes;
-  for (int n = 0; n < mesh.node_count(); ++n) {
-    bool inside = true;
-    for (int j = 0; j < 3; ++j) {
-      const double x = mesh.nodes[n][j];
-      inside = inside && x >= box.low[j] - tolerance && x <= box.high[j] + tolerance;
-    }
-    if (inside) nodes.push_back(n);
+  BoxOf<3> wider = box;
+  for (int j = 0; j < 3; ++j) {
+    wider.low[j] -= tolerance;
+    wider.high[j] += tolerance;
   }
+  std::vector<int> nodes;
+  for_nodes_in(mesh, wider, [&](int n, const Vec<3>&) { nodes.push_back(n); });
   return nodes;
 }
 
@@ -149,8 +146,6 @@ std::vector<std::string> describe_boundaries(const Mesh<Dim>& mesh,
   return lines;
 }
 
-template double largest_coordinate(const Mesh<2>&);
-template double largest_coordinate(const Mesh<3>&);
 template std::vector<int> boundary_nodes(const Mesh<2>&, const input::BoundaryInput&);
 template std::vector<int> boundary_nodes(const Mesh<3>&, const input::BoundaryInput&);
 template std::vector<std::string> describe_boundaries(const Mesh<2>&, const std::vector<input::BoundaryInput>&);

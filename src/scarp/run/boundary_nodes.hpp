@@ -10,10 +10,6 @@ namespace scarp::run {
 
 constexpr double round_off = 1e-9;  ///< of a mesh's largest coordinate: nodes this far from a place are there
 
-/// The largest coordinate in the mesh, whatever its sign.
-template <int Dim>
-double largest_coordinate(const Mesh<Dim>& mesh);
-
 /// The nodes of a boundary, ascending. Throws InputError for a set that the mesh does not have, for a place without
 /// nodes, and for a line (in space, a flat box) that passes through elements: between its nodes it would hold nothing.
 template <int Dim>

@@ -62,6 +62,7 @@ template <int Dim>
 struct Buffers {
   // Of each slot:
   std::vector<std::uint8_t> inside;  ///< are all elements around it active, too?
+  Column size;                       ///< Mesh::size_of its element
   Column weight;                     ///< w of its quadrature
   Column shift;                      ///< transfer::Shift of its quadrature, as stored: shift_row numbers
   std::size_t shift_row = 0;
@@ -88,7 +89,7 @@ struct Buffers {
   std::vector<StepBooks<Dim>> books;  ///< of each chunk
   // Elements whose quadrature changes with the points that do (reweighted.hpp), and which of all these are.
   std::vector<int> changed;
-  std::vector<std::uint8_t> is_changed;
+  ZeroPages<std::uint8_t> is_changed;
 };
 
 /// Soil on its background mesh. The mesh is held by pointer, so that it stays where the locator saw it.

@@ -242,7 +242,7 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block,
                                          {},
                                          body.buffers.shift.data() + slot * body.buffers.shift_row,
                                          body.buffers.weight[slot],
-                                         body.mesh->size[e],
+                                         body.buffers.size[slot],
                                          nullptr,
                                          0,
                                          0};
@@ -282,7 +282,7 @@ template <bool pic, int Dim>
     transfer::with_means<Basis>(body.buffers.mean_dilatation[slot] != 0, [&](auto averaged) {
       move_points<pic, Basis>(body, block, slot, e, rules, strains, at, averaged, motion, books);
     });
-    if (sharing) sharing->in_element(points_of(block, slot), body.mesh->size[e], at);
+    if (sharing) sharing->in_element(points_of(block, slot), body.buffers.size[slot], at);
   });
   book(motion.sums, books);
   books.search.own += motion.stayed;

@@ -170,7 +170,7 @@ double critical_time_step(Body<Dim>& body, const Scheme& scheme, double local_da
   if (step::bounds_by_nodes(body, scheme)) find_bound_by_nodes(body, scheme);
   double dt = std::numeric_limits<double>::infinity();
   for (const auto& block : body.blocks) {
-    dt = std::min(dt, exec::critical_time_step(block, body.mesh->size, body.active, body.buffers.weight,
+    dt = std::min(dt, exec::critical_time_step(block, *body.mesh, body.active, body.buffers.weight,
                                                body.buffers.bounds.least_per_mass,
                                                scheme::waves(scheme, is_elastic(block.model), local_damping)));
   }

@@ -27,10 +27,10 @@ input::BoundaryInput box(const Vec<3>& a, const Vec<3>& b) {
 /// Two triangles in the unit square, cut from (0, 0) to (1, 1), and beside them a square.
 Mesh<2> triangles() {
   Mesh<2> mesh;
-  mesh.nodes = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}, {2, 1}};
-  mesh.types = {ElementType::T3, ElementType::T3, ElementType::Q4};
-  mesh.offsets = {0, 3, 6, 10};
-  mesh.connectivity = {0, 1, 2, 0, 2, 3, 1, 4, 5, 2};
+  mesh.lists.nodes = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}, {2, 1}};
+  mesh.lists.types = {ElementType::T3, ElementType::T3, ElementType::Q4};
+  mesh.lists.offsets = {0, 3, 6, 10};
+  mesh.lists.connectivity = {0, 1, 2, 0, 2, 3, 1, 4, 5, 2};
   complete(mesh);
   return mesh;
 }
@@ -38,10 +38,10 @@ Mesh<2> triangles() {
 /// The six tetrahedra of the unit cube along its diagonal from (0, 0, 0) to (1, 1, 1).
 Mesh<3> tetrahedra() {
   Mesh<3> mesh;
-  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-  mesh.types.assign(6, ElementType::T4);
-  mesh.offsets = {0, 4, 8, 12, 16, 20, 24};
-  mesh.connectivity = {0, 1, 2, 6, 0, 2, 3, 6, 0, 3, 7, 6, 0, 7, 4, 6, 0, 4, 5, 6, 0, 5, 1, 6};
+  mesh.lists.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  mesh.lists.types.assign(6, ElementType::T4);
+  mesh.lists.offsets = {0, 4, 8, 12, 16, 20, 24};
+  mesh.lists.connectivity = {0, 1, 2, 6, 0, 2, 3, 6, 0, 3, 7, 6, 0, 7, 4, 6, 0, 4, 5, 6, 0, 5, 1, 6};
   complete(mesh);
   return mesh;
 }
@@ -102,9 +102,9 @@ TEST(BoundaryNodes, OfFlatBoxes) {
   EXPECT_EQ(boundary_nodes(mesh, box({0, 0, 0}, {1, 1, 0.3})), (Nodes{0, 1, 2, 3}));  // thick
   EXPECT_EQ(boundary_nodes(mesh, box({0, 0, 0}, {1, 0, 0})), (Nodes{0, 1}));          // a line
   auto bent = mesh;
-  bent.nodes[5][2] = 0.6;  // the plane z = 1 still has three nodes, and is now outside on one side
+  bent.lists.nodes[5][2] = 0.6;  // the plane z = 1 still has three nodes, and is now outside on one side
   EXPECT_EQ(boundary_nodes(bent, box({0, 0, 1}, {1, 1, 1})), (Nodes{4, 6, 7}));
-  bent.nodes[1][2] = -0.5;
+  bent.lists.nodes[1][2] = -0.5;
   expect_cut(bent, box({0, 0, 0}, {1, 1, 0}), "3");
   EXPECT_EQ(boundary_nodes(make_grid<3>({0, 0, 0}, {1, 1, 1}, {2, 2, 2}), box({0, 0, 0.5}, {1, 1, 0.5})).size(), 9u);
 }

@@ -27,9 +27,9 @@ struct Case {
 template <int Dim>
 int inner_element(const Mesh<Dim>& mesh, ElementType type) {
   for (int e = 0; e < mesh.element_count(); ++e) {
-    bool inside = mesh.types[e] == type;
+    bool inside = mesh.type_of(e) == type;
     for (const int n : mesh.element_nodes(e)) {
-      for (const double x : mesh.nodes[n]) inside = inside && x > 0.2 && x < 0.8;
+      for (const double x : mesh.node(n)) inside = inside && x > 0.2 && x < 0.8;
     }
     if (inside) return e;
   }
@@ -91,7 +91,7 @@ Points<Dim> points_at(const Case<Dim>& of, const std::type_identity_t<std::vecto
         x[k] = of.mesh.grid->origin[k] + (cell[k] + 0.5 * (1 + xi[k])) * of.mesh.grid->spacing[k];
       return x;
     }
-    with_shape<Dim>(of.mesh.types[of.element], [&]<class Shape>(Shape) {
+    with_shape<Dim>(of.mesh.type_of(of.element), [&]<class Shape>(Shape) {
       const auto x_i = node_positions<Shape>(of.mesh, of.element);
       std::array<double, Shape::nodes> N;
       Shape::shape(xi, N);
@@ -143,7 +143,7 @@ void expect_sums(const Case<Dim>& of, const Points<Dim>& points) {
   Vec<Dim> p{}, p_points{}, F{}, centre{}, centre_points{};
   std::array<std::array<double, Dim>, Dim> xp{}, xp_points{}, xF{}, virial{};
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const auto& x = of.mesh.nodes[number[n]];
+    const auto& x = of.mesh.node(number[n]);
     m += nodes[n][0];
     for (int j = 0; j < Dim; ++j) {
       p[j] += nodes[n][1 + j];
@@ -198,11 +198,11 @@ void expect_linear_fields(const Case<Dim>& of, Points<Dim> points) {
     const auto number = of.mesh.element_nodes(e);
     std::array<transfer::Motion<Dim>, Basis::nodes> motion{};
     const std::array<double, 1024> no_shift{};
-    transfer::ElementMotion<Basis> element{{}, {}, no_shift.data(), 1, of.mesh.size[e]};
+    transfer::ElementMotion<Basis> element{{}, {}, no_shift.data(), 1, of.mesh.size_of(e)};
     for (int n = 0; n < Basis::nodes; ++n) {
       for (int j = 0; j < Dim; ++j) {
-        motion[n].dv(j) = field(0, j, of.mesh.nodes[number[n]]);
-        motion[n].du(j) = field(1, j, of.mesh.nodes[number[n]]);
+        motion[n].dv(j) = field(0, j, of.mesh.node(number[n]));
+        motion[n].du(j) = field(1, j, of.mesh.node(number[n]));
       }
       element.motion[n] = motion[n].row.data();
     }
@@ -227,7 +227,7 @@ void expect_linear_fields(const Case<Dim>& of, Points<Dim> points) {
 template <int Dim>
 void expect_all(const std::vector<Case<Dim>>& cases) {
   for (const auto& of : cases) {
-    const auto all = places<Dim>(of.mesh.types[of.element]);
+    const auto all = places<Dim>(of.mesh.type_of(of.element));
     const char* names[] = {"inside", "on a side", "on an edge", "at a corner"};
     for (std::size_t i = 0; i < all.size(); ++i) {
       SCOPED_TRACE(of.name + ", one point " + names[i]);
