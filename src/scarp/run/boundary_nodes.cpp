@@ -101,16 +101,6 @@ std::vector<int> nodes_in_place(const Mesh<Dim>& mesh, const input::BoundaryInpu
                      Dim == 2 ? "give a line along edges of elements, or name a node set with nodes = \"...\""
                               : "give a box that holds nodes, or name a node set with nodes = \"...\"",
                      input.position);
-  if (const auto cut = cut_element(mesh, ends))
-    throw InputError(fmt::format("the {} of this boundary passes through elements, and holds nothing between its "
-                                 "nodes there",
-                                 kind),
-                     fmt::format("{} nodes on {}, an element cut at ({:.6g})", nodes.size(), place_of<Dim>(input),
-                                 fmt::join(*cut, ", ")),
-                     fmt::format("give a {} along {} of elements, or draw it in the geometry before meshing, as a "
-                                 "Physical {}, and name that with nodes = \"...\"",
-                                 kind, Dim == 2 ? "edges" : "faces", Dim == 2 ? "Curve" : "Surface"),
-                     input.position);
   return nodes;
 }
 
@@ -125,6 +115,23 @@ std::vector<int> boundary_nodes(const Mesh<Dim>& mesh, const input::BoundaryInpu
   for (const auto& [name, nodes] : mesh.node_sets) names.push_back('"' + name + '"');
   throw InputError("the mesh has no such node set", '"' + *input.nodes + '"',
                    fmt::format("choose one of {}", fmt::join(names, ", ")), input.position);
+}
+
+template <int Dim>
+void check_boundary(const Mesh<Dim>& mesh, const input::BoundaryInput& input) {
+  const auto nodes = boundary_nodes(mesh, input);
+  if (input.nodes) return;
+  constexpr const char* kind = Dim == 2 ? "line" : "box";
+  const auto cut = cut_element(mesh, ends_of<Dim>(input));
+  if (!cut) return;
+  throw InputError(
+      fmt::format("the {} of this boundary passes through elements, and holds nothing between its nodes there", kind),
+      fmt::format("{} nodes on {}, an element cut at ({:.6g})", nodes.size(), place_of<Dim>(input),
+                  fmt::join(*cut, ", ")),
+      fmt::format("give a {} along {} of elements, or draw it in the geometry before meshing, as a Physical {}, and "
+                  "name that with nodes = \"...\"",
+                  kind, Dim == 2 ? "edges" : "faces", Dim == 2 ? "Curve" : "Surface"),
+      input.position);
 }
 
 template <int Dim>
@@ -148,6 +155,8 @@ std::vector<std::string> describe_boundaries(const Mesh<Dim>& mesh,
 
 template std::vector<int> boundary_nodes(const Mesh<2>&, const input::BoundaryInput&);
 template std::vector<int> boundary_nodes(const Mesh<3>&, const input::BoundaryInput&);
+template void check_boundary(const Mesh<2>&, const input::BoundaryInput&);
+template void check_boundary(const Mesh<3>&, const input::BoundaryInput&);
 template std::vector<std::string> describe_boundaries(const Mesh<2>&, const std::vector<input::BoundaryInput>&);
 template std::vector<std::string> describe_boundaries(const Mesh<3>&, const std::vector<input::BoundaryInput>&);
 

@@ -176,6 +176,7 @@ Body<Dim> build_body(const input::CaseOf<Dim>& input) {
         make_block(region, input.materials[region.material], fillings[r], input.axisymmetric, first_id));
     first_id += body.blocks.back().size();
   }
+  for (const auto& boundary : input.boundaries) check_boundary(*body.mesh, boundary);
   body.conditions = make_conditions(*body.mesh, input, [](const auto&) { return true; });
   const OverburdenOf<Dim> overburden(layers, std::abs(input.gravity[Dim - 1]));
   for (std::size_t r = 0; r < input.regions.size(); ++r) {
