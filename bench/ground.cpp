@@ -146,7 +146,7 @@ Body<2> mesh_body(int points, const AnyModel& model, ElementShape shape) {
   Block<2> block("ground", model);
   fill_elements(*body.mesh, n, block);
   run::set_initial_state<2>(block, ground<2>(n, model), Overburden({}, 9.81));
-  body.blocks.push_back(std::move(block));
+  body.fields[0].blocks.push_back(std::move(block));
   for (int j = 0; j < 2; ++j) fix(body.conditions, body.mesh->node_sets.at("bottom"), j);
   locate_points(body);
   return body;
@@ -154,7 +154,7 @@ Body<2> mesh_body(int points, const AnyModel& model, ElementShape shape) {
 
 template <int Dim>
 void compress(Body<Dim>& body, double rate) {
-  for (auto& block : body.blocks) {
+  for (auto& block : body.blocks()) {
     auto& points = block.points;
     for (int i = 0; i < block.size(); ++i) points.v[Dim - 1][i] = -rate * points.x[Dim - 1][i];
   }

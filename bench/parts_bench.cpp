@@ -62,7 +62,7 @@ template <Ground kind>
 void locate(benchmark::State& loop) {
   auto body = make_ground<kind>();
   constexpr int Dim = std::tuple_size_v<decltype(body.gravity)>;
-  auto& soil = body.blocks.front().points;
+  auto& soil = body.fields[0].blocks.front().points;
   std::mt19937 random(5);
   std::uniform_int_distribution<int> percent(0, 99);
   for (int i = 0; i < soil.size(); ++i)
@@ -82,7 +82,7 @@ void locate(benchmark::State& loop) {
 /// `arrange` their arrays are put into that order, too.
 void order(benchmark::State& loop, bool arrange) {
   Body<2> body = make_ground<Ground::q4>();
-  std::vector<Block<2>> start = body.blocks;
+  std::vector<Block<2>> start = body.fields[0].blocks;
   std::mt19937 random(5);
   std::uniform_int_distribution<int> percent(0, 99);
   auto& element = start.front().points.element;
@@ -90,10 +90,10 @@ void order(benchmark::State& loop, bool arrange) {
     if (percent(random) < loop.range(0)) ++e;
   for (auto _ : loop) {
     loop.PauseTiming();
-    body.blocks.front().points = start.front().points;
+    body.fields[0].blocks.front().points = start.front().points;
     loop.ResumeTiming();
-    sort_by_element(body.blocks, body.mesh->element_count(), body.active);
-    if (arrange) exec::arrange_in_order(body.blocks);
+    sort_by_element(body.fields[0].blocks, body.mesh->element_count(), body.fields[0].active);
+    if (arrange) exec::arrange_in_order(body.fields[0].blocks);
   }
   set_time_per_point(loop, body.point_count());
 }

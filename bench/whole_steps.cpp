@@ -48,7 +48,7 @@ Prepared steps_of(const Scheme& scheme, Make&& make) {
   const int points = body->point_count(), steps = std::clamp(4'000'000 / points, 4, 4000);
   for (int k = 0; k < 3; ++k) advance(*body, time_step, settings);  // buffers and caches find their size
   prepared.points = points;
-  prepared.elements = body->active.size();
+  prepared.elements = body->fields[0].active.size();
   prepared.write_frame = [body](const std::string& path) { return write_frame(*body, path); };
   prepared.repeat = [body, steps, points, settings](bool profile) mutable {
     settings.profile = profile;
@@ -97,7 +97,7 @@ class SlopeCut {
     ledger_.initial_mass = ledger_.last.mass;
     run::StageRecord record;
     run_stage(0, false, record);
-    at_rest_ = body_.blocks;
+    at_rest_ = body_.fields[0].blocks;
     conditions_ = body_.conditions;
     ledger_at_rest_ = ledger_;
   }
@@ -105,12 +105,12 @@ class SlopeCut {
   const Body<2>& body() const { return body_; }
 
   Repetition cut(bool profile) {
-    body_.blocks = at_rest_;
+    body_.fields[0].blocks = at_rest_;
     body_.conditions = conditions_;  // the cut before this one has let the sides go
-    body_.sides = {};
+    body_.fields[0].outside.sides = {};
     ledger_ = ledger_at_rest_;
     reorder(body_);
-    body_.out_of_place = 0;
+    body_.fields[0].out_of_place = 0;
     const auto before = ledger_;
     run::StageRecord record;
     const Timer timer;
@@ -156,7 +156,7 @@ Prepared slope_cut_failing() {
   const auto slope = std::make_shared<SlopeCut>();
   since_start.read(prepared.start);
   prepared.points = slope->body().point_count();
-  prepared.elements = slope->body().active.size();
+  prepared.elements = slope->body().fields[0].active.size();
   prepared.repeat = [slope](bool profile) { return slope->cut(profile); };
   prepared.write_frame = [slope](const std::string& path) { return write_frame(slope->body(), path); };
   return prepared;

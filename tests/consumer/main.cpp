@@ -70,12 +70,12 @@ bool time_step() {
   block.points.x[0][0] = block.points.x[1][0] = 0.6;
   block.points.volume[0] = block.points.initial_volume[0] = 0.01;
   block.points.mass[0] = 0.018;
-  body.blocks.push_back(std::move(block));
+  body.fields[0].blocks.push_back(std::move(block));
   scarp::locate_points(body);
   scarp::StepSettings settings;
   settings.scheme = scarp::two_term_scheme();
   scarp::advance(body, dt, settings);
-  return agree("velocity in free fall", body.blocks[0].points.v[1][0], -9.81 * dt, 1e-12);
+  return agree("velocity in free fall", body.blocks()[0].points.v[1][0], -9.81 * dt, 1e-12);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ Body<2> ground(Background background) {
     points.id[i] = i;
     for (auto& component : points.sigma) component[i] = stress(random);
   }
-  body.blocks.push_back(std::move(block));
+  body.fields[0].blocks.push_back(std::move(block));
   locate_points(body);
   for (const char* side : {"left", "right"}) fix(body.conditions, body.mesh->node_sets.at(side), 0);
   for (int j = 0; j < 2; ++j) fix(body.conditions, body.mesh->node_sets.at("bottom"), j);
@@ -43,7 +43,7 @@ TEST_P(Held, ImbalanceLeavesNothingOutOfBalance) {
   const auto loose = advance(free, dt, settings);
   EXPECT_GT(loose.unbalanced_force, loose.weight);  // or there is nothing to hold
   hold_imbalance(held, settings);
-  held.release.share = 1;
+  held.fields[0].outside.release.share = 1;
   const auto still = advance(held, dt, settings);
   EXPECT_LT(still.unbalanced_force, 1e-12 * loose.unbalanced_force);
 }
@@ -55,7 +55,7 @@ TEST_P(Held, SidesThatAreLetGoKeepTheirForce) {
   settings.scheme = two_term_scheme();
   auto body = ground(GetParam());
   hold_imbalance(body, settings);  // within: what is left is the force with which sides hold
-  body.release.share = 1;
+  body.fields[0].outside.release.share = 1;
   auto others = body.conditions;
   for (const char* side : {"left", "right", "bottom"})
     for (const int n : body.mesh->node_sets.at(side)) others.fixed[n] = 0;

@@ -54,7 +54,7 @@ Body<3> ground_on_faces() {
     points.sigma[0][p] = points.sigma[1][p] = 0.5 * vertical;
     points.sigma[2][p] = vertical;
   }
-  body.blocks.push_back(std::move(block));
+  body.fields[0].blocks.push_back(std::move(block));
   locate_points(body);
   const auto& sets = body.mesh->node_sets;
   for (const auto& [side, axis] : {std::pair{"left", 0}, std::pair{"right", 0}, std::pair{"front", 1},

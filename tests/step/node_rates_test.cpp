@@ -28,7 +28,7 @@ Body<3> tetrahedra_with_few_points() {
     points.mass[p] = 1.8 * points.volume[p];
     points.id[p] = p;
   }
-  body.blocks.push_back(std::move(block));
+  body.fields[0].blocks.push_back(std::move(block));
   locate_points(body);
   return body;
 }

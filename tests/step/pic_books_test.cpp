@@ -18,7 +18,7 @@ StepSettings with(double pic_time, double damping = 0) {
 /// round-off, and there is something to book.
 template <int Dim>
 StepBooks<Dim> step_both(Body<Dim>& body, Body<Dim>& other, double dt, double damping) {
-  other.blocks = body.blocks;
+  other.fields[0].blocks = body.fields[0].blocks;
   reorder(other);
   const auto kept = advance(other, dt, with(std::numeric_limits<double>::infinity(), damping));
   const auto books = advance(body, dt, with(0.03, damping));
@@ -74,7 +74,7 @@ TEST(BooksOfPicOnALine, NodesWithoutMass) {
       points.mass[i] = 2 * points.volume[i];
       points.id[i] = i;
     }
-    body.blocks.push_back(std::move(block));
+    body.fields[0].blocks.push_back(std::move(block));
     locate_points(body);
     return body;
   };

@@ -31,7 +31,7 @@ Body<2> column(double velocity) {
     points.v[1][p] = velocity + 0.05 * std::sin(2 * (points.x[1][p] - 3));
     points.sigma[1][p] = -0.5;
   }
-  body.blocks.push_back(std::move(block));
+  body.fields[0].blocks.push_back(std::move(block));
   locate_points(body);
   return body;
 }
@@ -45,7 +45,7 @@ struct Point {
 /// w of every point by the definition: V / Σ Ω of an element in which, and around which, there are points, where these
 /// fill from a half to twice of it.
 std::vector<double> weights(const Body<2>& body, const std::vector<int>& element) {
-  const auto& points = body.blocks[0].points;
+  const auto& points = body.blocks()[0].points;
   std::map<int, double> volume;
   for (int i = 0; i < points.size(); ++i) volume[element[points.id[i]]] += points.volume[i];
   std::vector<double> w(points.size(), 1);
@@ -61,7 +61,7 @@ std::vector<double> weights(const Body<2>& body, const std::vector<int>& element
 }
 
 std::vector<int> elements(const Body<2>& body) {
-  const auto& points = body.blocks[0].points;
+  const auto& points = body.blocks()[0].points;
   std::vector<int> e(points.size());
   for (int i = 0; i < points.size(); ++i) e[points.id[i]] = points.element[i];
   return e;
@@ -104,13 +104,13 @@ double momentum(const Points<2>& points) {
 double power_of_nodes(Body<2>& body) {
   advance(body, 0, {});
   double power = 0;
-  for (int k = 0; k < body.assembly.size(); ++k) {
+  for (int k = 0; k < body.fields[0].assembly.size(); ++k) {
     std::array<double, transfer::node_sums<2>> sum{};  // m, p, F_int
-    body.assembly.gather(k, [&](int place) {
+    body.fields[0].assembly.gather(k, [&](int place) {
       for (int q = 0; q < transfer::node_sums<2>; ++q)
-        sum[q] += body.buffers.sums[static_cast<std::size_t>(place) * transfer::node_sums<2> + q];
+        sum[q] += body.fields[0].buffers.sums[static_cast<std::size_t>(place) * transfer::node_sums<2> + q];
     });
-    if (sum[0] < body.least_mass) continue;
+    if (sum[0] < body.fields[0].least_mass) continue;
     for (int j = 0; j < 2; ++j) power += sum[3 + j] * sum[1 + j] / sum[0];
   }
   return power;
@@ -118,7 +118,7 @@ double power_of_nodes(Body<2>& body) {
 
 Energies follow(double velocity, double dt, int steps) {
   auto body = column(velocity);
-  const auto& points = body.blocks[0].points;
+  const auto& points = body.blocks()[0].points;
   Energies its;
   const double start_kinetic = kinetic_energy(points), start_momentum = momentum(points);
   double stored_start = 0, stored = 0, S_before = 0, gravity = 0;
@@ -193,7 +193,7 @@ TEST(Reweighted, CountsTheElementsAroundThoseThatFillOrEmpty) {
   // around them become or cease to be inside the soil without a point of their own moving. The program's sum over the
   // elements that it thinks are changed is that over all points.
   auto body = soil<2>(make_grid({0, 0}, {1, 1}, {10, 10}), LinearElastic({E, 0}), 13, 1);
-  const auto& points = body.blocks[0].points;
+  const auto& points = body.blocks()[0].points;
   const double dt = 0.3 * critical_time_step(body);
   double largest = 0;
   for (int s = 0; s < 200; ++s) {

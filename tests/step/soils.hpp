@@ -137,7 +137,7 @@ Body<Dim> soil(Mesh<Dim> mesh, const AnyModel& model, int along, double speed, d
     if constexpr (Dim == 2) points.sigma[2][i] = -2;
     set_state(block, i);
   }
-  body.blocks.push_back(std::move(block));
+  body.fields[0].blocks.push_back(std::move(block));
   locate_points(body);
   const auto& sets = body.mesh->node_sets;
   for (const char* side : {"left", "right"}) fix(body.conditions, sets.at(side), 0);

@@ -14,7 +14,7 @@ namespace {
 template <int Dim>
 std::vector<std::uint64_t> bits(Body<Dim>& body, const StepBooks<Dim>& books) {
   std::vector<std::uint64_t> all;
-  for_each_column(body.blocks[0], [&](const auto& column) {
+  for_each_column(body.blocks()[0], [&](const auto& column) {
     for (const auto value : column) {
       if constexpr (sizeof(value) == 8) {
         all.push_back(std::bit_cast<std::uint64_t>(value));
@@ -46,14 +46,14 @@ std::vector<std::uint64_t> run(int threads, Mesh<Dim> mesh, const AnyModel& mode
     if (s != steps / 2) continue;
     // A cut: what stands to the right above.
     std::vector<std::uint8_t> gone;
-    const auto& points = body.blocks[0].points;
+    const auto& points = body.blocks()[0].points;
     for (int i = 0; i < points.size(); ++i) gone.push_back(points.x[0][i] > 0.6 && points.x[Dim - 1][i] > 0.5);
-    remove_points(body.blocks[0], gone);
+    remove_points(body.blocks()[0], gone);
     reorder(body);
   }
   EXPECT_GT(10 * changed, body.point_count());  // so all were put in order at least once
   if (length > 0) {
-    const auto& kappa_hat = body.blocks[0].state.end()[-2];
+    const auto& kappa_hat = body.blocks()[0].state.end()[-2];
     EXPECT_GT(*std::max_element(kappa_hat.begin(), kappa_hat.end()), 0) << "nothing has softened";
   }
   exec::set_threads(1);

@@ -41,7 +41,7 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
  public:
   /// The points of the first block of a body, by their numbers.
   Twin(const Body<Dim>& body, const Model& model) : Shapes(body), model_(model) {
-    const auto& block = body.blocks[0];
+    const auto& block = body.blocks()[0];
     points.resize(block.size());
     for (int i = 0; i < block.size(); ++i) {
       const auto& p = block.points;
@@ -309,7 +309,7 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
   void stress(std::size_t k, const Kinematics& strain, double dt, const StepSettings& settings) {
     Point& point = points[k];
     const auto [turned, separated] = update_stress<N>(model_, point.state, strain, dt, settings.integration);
-    const auto waves = scheme::waves(settings.scheme, is_elastic(body_.blocks[0].model));
+    const auto waves = scheme::waves(settings.scheme, is_elastic(body_.blocks()[0].model));
     const double modulus = model_.p_wave_modulus(point.state);
     const double beta = waves.time > 0 ? waves.time : waves.share / std::sqrt(modulus * per_mass(k));
     point.ahead = point.state.sigma;

@@ -26,7 +26,7 @@ class Difference {
 
 template <class Model, int Dim>
 double difference(const Body<Dim>& body, const Twin<Model, Dim>& twin) {
-  const auto& block = body.blocks[0];
+  const auto& block = body.blocks()[0];
   const auto& points = block.points;
   constexpr int N = sym_size<Dim>;
   Difference x, v, sigma, Omega;
@@ -58,8 +58,8 @@ template <class Model, int Dim>
 void run_both(Mesh<Dim> mesh, const AnyModel& model, int along, int steps, const StepSettings& settings,
               double speed = 1) {
   auto body = soil<Dim>(std::move(mesh), model, along, speed);
-  Twin<Model, Dim> twin(body, std::get<Model>(body.blocks[0].model));
-  body.buffers.bounds.every = 1;  // as the twin has it
+  Twin<Model, Dim> twin(body, std::get<Model>(body.blocks()[0].model));
+  body.fields[0].buffers.bounds.every = 1;  // as the twin has it
   const double dt = 0.3 * critical_time_step(body);
   double worst = 0;
   std::int64_t changed = 0;

@@ -37,14 +37,14 @@ TEST(BodyOfRevolution, RadialExpansionStrainsTheCircumferenceAsMuch) {
   auto body = cylinder(2, 2, {2, 2}, {4, 4}, {9, 7}, LinearElastic({100, 0.2}), 1, 0);
   using Basis = Axisymmetric<GridLinear<2>>;
   constexpr double c = 1e-2;
-  auto& block = body.blocks[0];
+  auto& block = body.blocks()[0];
   const auto before = block.points.volume;
   Strains<2> strains;
   strains.reserve(block.size());
   transfer::MotionSums<2> sums;
   constexpr double no_shift[8] = {};
-  for (int slot = 0; slot < body.active.size(); ++slot) {
-    const int e = body.active.element[slot];
+  for (int slot = 0; slot < body.fields[0].active.size(); ++slot) {
+    const int e = body.fields[0].active.element[slot];
     const auto n = body.mesh->element_nodes(e);
     std::array<transfer::Motion<2>, 4> motion;
     transfer::ElementMotion<Basis> element{{}, {}, no_shift, 1, body.mesh->size_of(e), no_shift};
@@ -75,7 +75,7 @@ double stress_noise(Quadrature quadrature) {
   auto body = cylinder(4, length, {4, 80}, {4, 80}, {10, 150}, LinearElastic({100, 0.0}), 1, 0);
   body.conditions = Conditions<2>(body.mesh->node_count());
   for (const char* side : {"left", "right"}) fix(body.conditions, body.mesh->node_sets.at(side), 0);
-  auto& points = body.blocks[0].points;
+  auto& points = body.blocks()[0].points;
   for (int p = 0; p < points.size(); ++p) {
     points.x[1][p] += 4 + 1e-3;
     points.v[1][p] = v;
@@ -113,7 +113,7 @@ double vibration_error(int elements) {
   const double M = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)), omega = k * std::sqrt(M / rho), h = R / elements;
   auto body = cylinder(R, h, {R, h}, {elements, 1}, {2 * elements, 2}, LinearElastic({E, nu}), rho, 0);
   fix(body.conditions, body.mesh->node_sets.at("top"), 1);
-  auto& points = body.blocks[0].points;
+  auto& points = body.blocks()[0].points;
   const auto mode = [&](int p) { return v0 * std::cyl_bessel_j(1.0, k * points.x[0][p]); };
   double start = 0, worst = 0, last = 0;
   for (int p = 0; p < points.size(); ++p) {
@@ -149,10 +149,10 @@ TEST(BodyOfRevolution, SoilInARigidCylinderRestsUnderGeostaticStress) {
   constexpr double R = 4, H = 10, nu = 0.3, rho = 2, g = 10, h = 0.5;
   auto body = cylinder(R, H, {R, H + 1}, {8, 22}, {18, 44}, LinearElastic({1e6, nu}), rho, g);
   run_until(body, 0.6, 0.5, {.damping = 0.7, .integration = {}}, [](double, const StepBooks<2>&) {});
-  const auto& block = body.blocks[0];
+  const auto& block = body.blocks()[0];
   double worst = 0;
-  for (int slot = 0; slot < body.active.size(); ++slot) {
-    const int e = body.active.element[slot];
+  for (int slot = 0; slot < body.fields[0].active.size(); ++slot) {
+    const int e = body.fields[0].active.element[slot];
     double sum[3] = {}, filled = 0;
     for (int l = block.begin[slot]; l < block.begin[slot + 1]; ++l) {
       const int p = block.order[l];

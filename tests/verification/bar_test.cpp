@@ -136,7 +136,7 @@ struct Column {
 
   /// Mean vertical stress of the points in each element of the first column that is full, by element centre.
   double worst_stress_error() const {
-    const auto& points = body.blocks[0].points;
+    const auto& points = body.blocks()[0].points;
     std::vector<double> sum(20, 0.0), volume(20, 0.0);
     for (int p = 0; p < points.size(); ++p) {
       const int cell = std::min(19, static_cast<int>(points.x[1][p] / 0.5));
@@ -155,10 +155,10 @@ TEST(SuddenlyLoadedColumn, DisplacementOfTheTopFollowsTheSeries) {
   Column column;
   const double static_top = Column::rho * Column::g * Column::H * Column::H / (2 * Column::M);
   const double half = 2 * Column::H / std::sqrt(Column::M / Column::rho);  // t = 2H/c
-  const int top = column.body.blocks[0].size() - 1;
+  const int top = column.body.blocks()[0].size() - 1;
   double worst = 0, twice = 0;
   run_until(column.body, half, 0.2, {}, [&](double t, const StepBooks<2>&) {
-    const auto& points = column.body.blocks[0].points;
+    const auto& points = column.body.blocks()[0].points;
     // The arrays are sorted by element: find the point by its number.
     for (int p = 0; p < points.size(); ++p) {
       if (points.id[p] != top) continue;

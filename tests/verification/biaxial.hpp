@@ -32,7 +32,7 @@ class Biaxial {
     add(linear_elastic(20, 0.0), rho, {width, 0}, {width + beside, height}, 0);
     add(linear_elastic(1e4, 0.0), 1e4 * rho, {0, height}, {width + beside, height + thickness}, 0);
     set_clay(weakness);
-    for (auto& block : body_.blocks) {
+    for (auto& block : body_.blocks()) {
       auto& points = block.points;
       for (int i = 0; i < block.size(); ++i) {
         for (int c = 0; c < 3; ++c) points.sigma[c][i] = -p;
@@ -46,7 +46,7 @@ class Biaxial {
   }
 
   Body<2>& body() { return body_; }
-  const Points<2>& clay() const { return body_.blocks[0].points; }
+  const Points<2>& clay() const { return body_.blocks()[0].points; }
   double strain() const { return time_ * speed / height; }
 
   /// Steps until the axial strain is this.
@@ -71,7 +71,7 @@ class Biaxial {
   /// ‖ε^p‖ of point i of the clay.
   double plastic(int i) const {
     double sum = 0;
-    for (std::size_t c = epsp; c < epsp + 4; ++c) sum += body_.blocks[0].state[c][i] * body_.blocks[0].state[c][i];
+    for (std::size_t c = epsp; c < epsp + 4; ++c) sum += body_.blocks()[0].state[c][i] * body_.blocks()[0].state[c][i];
     return std::sqrt(sum);
   }
 
@@ -95,17 +95,17 @@ class Biaxial {
   void add(const AnyModel& law, double density, const Vec<2>& low, const Vec<2>& high, double length) {
     const std::array counts{2 * cells(high[0] - low[0]), 2 * cells(high[1] - low[1])};
     const auto points = add_box(body_, law, density, low, high, counts).points;
-    body_.blocks.pop_back();
+    body_.fields[0].blocks.pop_back();
     Block<2> block("soil", law, length);
     resize(block, points.size());
     block.points = points;
-    body_.blocks.push_back(std::move(block));
+    body_.fields[0].blocks.push_back(std::move(block));
   }
 
   /// The state of the clay, and the weak spot in the corner.
   void set_clay(double weakness) {
     constexpr double spot = 0.1;
-    auto& block = body_.blocks[0];
+    auto& block = body_.blocks()[0];
     const auto& law = std::get<Subloading>(block.model);
     for (int i = 0; i < block.size(); ++i) {
       const double x = block.points.x[0][i], y = block.points.x[1][i];
@@ -130,7 +130,7 @@ class Biaxial {
       xv += clay().x[0][i] * clay().v[0][i];
       xx += clay().x[0][i] * clay().x[0][i];
     }
-    auto& platen = body_.blocks[2].points;
+    auto& platen = body_.blocks()[2].points;
     for (int i = 0; i < platen.size(); ++i) {
       const double x = platen.x[0][i];
       platen.v[0][i] = xv / xx * std::min(x, (width + beside - x) * width / beside);

@@ -59,7 +59,7 @@ TEST(Biaxial, UniformClayHasTheLaboratorysCurveButForTheLag) {
   std::vector<double> errors;
   for (const int every : {1, 5}) {
     Biaxial averaged(10, 0.1, 0), local(10, 0, 0);
-    averaged.body().averages.every = every;
+    averaged.body().fields[0].averages.every = every;
     for (Biaxial* test : {&averaged, &local}) test->compress(0.03);
     errors.push_back(std::abs(averaged.q() - local.q()) / peak);
     std::printf("uniform, averages every %d steps: %.1e of the peak\n", every, errors.back());

@@ -41,8 +41,8 @@ inline Block<2>& add_points(Body<2>& body, const AnyModel& model, double density
   if (std::holds_alternative<NeoHookean>(model)) {  // its state is b, and b = I
     for (int c = 0; c < 3; ++c) std::fill(block.state[c].begin(), block.state[c].end(), 1.0);
   }
-  body.blocks.push_back(std::move(block));
-  return body.blocks.back();
+  body.fields[0].blocks.push_back(std::move(block));
+  return body.fields[0].blocks.back();
 }
 
 /// Adds a block that fills the box low..high with counts[0] × counts[1] points, as add_points() does.

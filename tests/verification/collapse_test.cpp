@@ -44,8 +44,8 @@ std::size_t gap_column(const AnyModel& model) {
 void expect_volume_is_kept(const std::string& name) {
   const auto sand = make_model(name, {{"E", E}, {"nu", nu}, {"c", 0}, {"phi", 31}, {"psi", 0}}).model.value();
   const auto body = collapsed(sand);
-  const auto& points = body.blocks[0].points;
-  const auto& gap = body.blocks[0].state[gap_column(sand)];
+  const auto& points = body.blocks()[0].points;
+  const auto& gap = body.blocks()[0].state[gap_column(sand)];
   double volume = 0, carrying = 0, carrying_at_start = 0, run_out = 0;
   int open = 0;
   for (int p = 0; p < points.size(); ++p) {

@@ -66,7 +66,7 @@ class WeightColumn {
     const auto exact = [&](double y) { return -times * rho_g * (H - y); };
     ColumnErrors errors;
     RelativeL2 displacement, stress;
-    const auto& points = body_.blocks[0].points;
+    const auto& points = body_.blocks()[0].points;
     for (int p = 0; p < points.size(); ++p) {
       const double y = points.x_start[1][p], u = points.u(1, p), sigma = points.sigma[1][p];
       displacement.add(1, u, -times * rho_g / solid.M() * (H * y - y * y / 2));

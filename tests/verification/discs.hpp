@@ -34,7 +34,7 @@ struct Motions {
 /// Σ Ω₀ W(b) is the energy stored, from the law's own state: W = ½ μ (tr b − 3) − μ ln J + ½ λ (ln J)².
 inline Motions motions_of(const Body<2>& body, const Solid& solid, const Vec<2>& about) {
   Motions sum;
-  for (const auto& block : body.blocks) {
+  for (const auto& block : body.blocks()) {
     const auto& points = block.points;
     for (int p = 0; p < points.size(); ++p) {
       const double m = points.mass[p];
@@ -68,7 +68,7 @@ inline DiscRun run_discs(Body<2>& body, const Solid& solid, double end, const Me
   DiscRun run;
   const Motions start = motions_of(body, solid, centre);
   double size = 0;
-  for (const auto& block : body.blocks) {
+  for (const auto& block : body.blocks()) {
     for (int p = 0; p < block.size(); ++p)
       size += block.points.mass[p] * std::hypot(block.points.v[0][p], block.points.v[1][p]);
   }

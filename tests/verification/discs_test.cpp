@@ -97,7 +97,7 @@ TEST_P(Discs, MotionWithoutStressKeepsAngularMomentumToRoundOff) {
   // Of dL above only the motion is left where there are no forces, and that is zero to round-off as long as points move
   // with the functions that their momentum was mapped with.
   auto body = turning_disc(20, {GetParam()});
-  for (auto& block : body.blocks) block.model = LinearElastic({1e-30, 0});
+  for (auto& block : body.blocks()) block.model = LinearElastic({1e-30, 0});
   for (int s = 0; s < 100; ++s) advance(body, 0.005, Method{GetParam()}.settings());
   const auto end = motions_of(body, disc_solid, {0.5, 0.5});
   EXPECT_NEAR(end.angular_momentum, exact_spin, 1e-13 * exact_spin);
@@ -111,7 +111,7 @@ struct Moments {
 };
 
 Moments moments_of(const Body<2>& body) {
-  const auto& points = body.blocks[0].points;
+  const auto& points = body.blocks()[0].points;
   const auto count = body.mesh->node_count();
   std::vector<double> m(count, 0.0);
   std::vector<Vec<2>> mx(count), f(count);
@@ -173,7 +173,7 @@ Swelling swelling(const Method& method, double safety) {
   double before = 0;
   run_until(body, 2 * pi / disc_spin, safety, method.settings(), [&](double t, const StepBooks<2>&) {
     const auto now = motions_of(body, disc_solid, {0.5, 0.5});
-    const auto& points = body.blocks[0].points;
+    const auto& points = body.blocks()[0].points;
     double inertia = 0;
     for (int p = 0; p < points.size(); ++p)
       inertia += points.mass[p] * (std::pow(points.x[0][p] - 0.5, 2) + std::pow(points.x[1][p] - 0.5, 2));
@@ -183,7 +183,7 @@ Swelling swelling(const Method& method, double safety) {
     result.low = std::min(result.low, energy);
     result.high = std::max(result.high, energy);
   });
-  const auto& block = body.blocks[0];
+  const auto& block = body.blocks()[0];
   for (int p = 0; p < block.size(); ++p) {
     exec::with_state(block, p, [&](const auto& law, const auto& state) {
       const double J = law.derived(state).empty() ? 1 : law.derived(state)[0];

@@ -27,7 +27,7 @@ struct DrivenErrors {
 /// Places of the points in order of their number.
 inline std::vector<Vec<2>> places_of(const Body<2>& body) {
   std::vector<Vec<2>> X(body.point_count());
-  for (const auto& block : body.blocks) {
+  for (const auto& block : body.blocks()) {
     for (int p = 0; p < block.size(); ++p) X[block.points.id[p]] = position_of(block.points, p);
   }
   return X;
@@ -36,7 +36,7 @@ inline std::vector<Vec<2>> places_of(const Body<2>& body) {
 /// f(block, p, X, id) for every point.
 template <class F>
 void for_each_point(Body<2>& body, const std::vector<Vec<2>>& X, F&& f) {
-  for (auto& block : body.blocks) {
+  for (auto& block : body.blocks()) {
     for (int p = 0; p < block.size(); ++p) f(block.points, p, X[block.points.id[p]]);
   }
 }

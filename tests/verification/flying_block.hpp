@@ -14,7 +14,7 @@ struct Flight {
 inline std::pair<double, double> spin_and_fall(const Body<2>& body) {
   double m = 0, L = 0;
   Vec<2> mx{}, mv{};
-  for (const auto& block : body.blocks) {
+  for (const auto& block : body.blocks()) {
     const auto& points = block.points;
     for (int p = 0; p < points.size(); ++p) {
       const double mass = points.mass[p];

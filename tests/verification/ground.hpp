@@ -82,7 +82,7 @@ Body<Dim> ground(Mesh<Dim> mesh, const Soil& soil) {
     for (int j = 0; j < 3; ++j)
       points.sigma[j][p] = -Soil::rho * Soil::g * (soil.height - points.x[up][p]) * (j == up ? 1 : K0);
   }
-  body.blocks.push_back(std::move(block));
+  body.fields[0].blocks.push_back(std::move(block));
   locate_points(body, true);
   const auto& sets = body.mesh->node_sets;
   for (int j = 0; j < Dim; ++j) fix(body.conditions, sets.at("bottom"), j);

@@ -9,7 +9,7 @@ namespace {
 /// Kinetic energy of a slope after 1000 steps of this length with local damping α; infinite where points get lost.
 double left_over(double dt, const Scheme& scheme, double alpha) {
   auto body = soft_slope(Cells::grid, 0.5, 0.37, 0.3);
-  for (auto& column : body.blocks[0].points.sigma) std::fill(column.begin(), column.end(), 0.0);
+  for (auto& column : body.blocks()[0].points.sigma) std::fill(column.begin(), column.end(), 0.0);
   StepSettings settings;
   settings.scheme = scheme;
   settings.damping = alpha;

@@ -39,7 +39,7 @@ double stress_noise(double cells, double points_per_cell, Quadrature quadrature,
   run_until(body, end, 0.3, {.quadrature = quadrature, .integration = {}}, [](double, const StepBooks<2>&) {});
   const double reached = 10 * end + its.ahead;  // elements that the waves may have come to
   double worst = 0;
-  const auto& points = body.blocks[0].points;
+  const auto& points = body.blocks()[0].points;
   for (int p = 0; p < points.size(); ++p) {
     const double place = points.x[0][p] - points.u(0, p) - 4;
     if (place < reached || place > length - reached) continue;
@@ -143,8 +143,8 @@ TEST(RigidRotation, TurnsStressBetaAndCentreWithTheBody) {
     // ω dt = w: L dt = [[0, −w], [w, 0]], from nodal displacements through step 6.
     transfer::MotionSums<2> sums;
     constexpr double no_shift[8] = {};
-    for (int slot = 0; slot < body.active.size(); ++slot) {
-      const int e = body.active.element[slot];
+    for (int slot = 0; slot < body.fields[0].active.size(); ++slot) {
+      const int e = body.fields[0].active.element[slot];
       const auto x_i = node_positions<Q4>(*body.mesh, e);
       std::array<transfer::Motion<2>, 4> motion;
       transfer::ElementMotion<GridLinear<2>> element{{}, {}, no_shift, 1, body.mesh->size_of(e)};

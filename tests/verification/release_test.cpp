@@ -26,7 +26,7 @@ Settled let_go(double time) {
   for (const char* side : {"left", "right"}) fix(body.conditions, body.mesh->node_sets.at(side), 0);
   fix(body.conditions, body.mesh->node_sets.at("bottom"), 1);
   const double dt = 0.3 * critical_time_step(body), weight = rho * g * H * H / (2 * E);
-  const auto& points = body.blocks[0].points;
+  const auto& points = body.blocks()[0].points;
   int top = 0;
   for (int p = 0; p < points.size(); ++p) top = points.x[1][p] > points.x[1][top] ? p : top;
 
@@ -34,7 +34,7 @@ Settled let_go(double time) {
   Settled its{1e300, -1e300};
   double balanced = 0, gravity = 0, kinetic = 0;
   for (double t = 0; t < time + 2 * period; t += dt) {
-    body.release.share = time > 0 ? std::max(0.0, 1 - t / time) : 0;
+    body.fields[0].outside.release.share = time > 0 ? std::max(0.0, 1 - t / time) : 0;
     const auto books = advance(body, dt, {});
     balanced += books.work_gravity + books.work_release - books.work_stress;
     gravity += books.work_gravity;
@@ -82,7 +82,7 @@ TEST(Release, HoldsSoilThatIsNotInBalanceWhereItIs) {
     const auto books = advance(body, 1e-3, settings);
     EXPECT_LT(books.unbalanced_force, 1e-13 * books.weight);
   }
-  for (const auto& v : body.blocks[0].points.v) {
+  for (const auto& v : body.blocks()[0].points.v) {
     for (const double component : v) EXPECT_LT(std::abs(component), 1e-14);
   }
 }

@@ -101,7 +101,7 @@ Body<Dim> stressed_block(GridFunctions shape) {
     points.id[p] = p;
     for (int c = 0; c < sym_size<Dim>; ++c) points.sigma[c][p] = stress_at_start<Dim>()[c];
   }
-  body.blocks.push_back(std::move(block));
+  body.fields[0].blocks.push_back(std::move(block));
   locate_points(body);
   return body;
 }
@@ -109,25 +109,26 @@ Body<Dim> stressed_block(GridFunctions shape) {
 /// Steps 6 to 11 with nodes that move by du = m x: the same for all points, wherever they are.
 template <int Dim>
 void move_with_nodes(Body<Dim>& body, const Matrix& m) {
-  auto& block = body.blocks[0];
+  auto& block = body.blocks()[0];
   Strains<Dim> strains;
   strains.reserve(block.size());
   transfer::MotionSums<Dim> sums;
-  with_basis(*body.mesh, body.active.element.data(), 0, body.active.size(), [&]<class Basis>(Basis, int slot, int e) {
-    constexpr double no_shift[Dim * transfer::nodal_size<Basis>] = {};
-    const auto nodes = body.mesh->element_nodes(e);
-    std::array<transfer::Motion<Dim>, Basis::nodes> motion;
-    transfer::ElementMotion<Basis> element{{}, {}, no_shift, 1, body.mesh->size_of(e), no_shift};
-    for (int i = 0; i < Basis::nodes; ++i) {
-      const auto du = product(m, body.mesh->node(nodes[i]));
-      for (int j = 0; j < Dim; ++j) motion[i].du(j) = du[j];
-      element.motion[i] = motion[i].row.data();
-    }
-    transfer::nodes_to_points<false, Basis>(
-        typename Basis::Cell(*body.mesh, e), element, {}, block.points,
-        {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, strains, block.begin[slot],
-        std::false_type{}, sums, [](const auto&...) {});
-  });
+  with_basis(*body.mesh, body.fields[0].active.element.data(), 0, body.fields[0].active.size(),
+             [&]<class Basis>(Basis, int slot, int e) {
+               constexpr double no_shift[Dim * transfer::nodal_size<Basis>] = {};
+               const auto nodes = body.mesh->element_nodes(e);
+               std::array<transfer::Motion<Dim>, Basis::nodes> motion;
+               transfer::ElementMotion<Basis> element{{}, {}, no_shift, 1, body.mesh->size_of(e), no_shift};
+               for (int i = 0; i < Basis::nodes; ++i) {
+                 const auto du = product(m, body.mesh->node(nodes[i]));
+                 for (int j = 0; j < Dim; ++j) motion[i].du(j) = du[j];
+                 element.motion[i] = motion[i].row.data();
+               }
+               transfer::nodes_to_points<false, Basis>(
+                   typename Basis::Cell(*body.mesh, e), element, {}, block.points,
+                   {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, strains,
+                   block.begin[slot], std::false_type{}, sums, [](const auto&...) {});
+             });
   exec::StressBooks books;
   exec::update_stresses(block, {block.order.data(), block.size()}, strains, 0, 1.0, {}, books);
   locate_points(body);
@@ -136,7 +137,7 @@ void move_with_nodes(Body<Dim>& body, const Matrix& m) {
 /// Positions x = m X, one stress, and volumes that have grown by a factor.
 template <int Dim>
 void expect_state(const Body<Dim>& body, const Matrix& m, const Matrix& sigma, double growth) {
-  const auto& points = body.blocks[0].points;
+  const auto& points = body.blocks()[0].points;
   const auto components = test::from_matrix<sym_size<Dim>>(sigma);
   for (int p = 0; p < points.size(); ++p) {
     const auto x = product(m, place_of<Dim>(points.id[p]));

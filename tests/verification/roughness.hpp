@@ -73,10 +73,10 @@ class Plane {
 /// Root mean square, over the mean pressure, of what is left of the pressure of the points of an element beside a plane
 /// through those of it and of all around, for the elements around which all are inside the soil.
 inline double roughness(const Body<2>& body) {
-  const auto& points = body.blocks[0].points;
+  const auto& points = body.blocks()[0].points;
   const auto inside = [&](int e) {
-    const int slot = body.active.slot[e];
-    return slot >= 0 && body.buffers.inside[slot];
+    const int slot = body.fields[0].active.slot[e];
+    return slot >= 0 && body.fields[0].buffers.inside[slot];
   };
   std::vector<std::vector<int>> points_in(body.mesh->element_count());
   for (int p = 0; p < points.size(); ++p) points_in[points.element[p]].push_back(p);

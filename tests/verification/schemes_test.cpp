@@ -126,7 +126,7 @@ TEST(Schemes, PointOnACornerOfTheGridStaysWithoutStress) {
     run_until(body, 6, 0.3, settings, [&](double t, const StepBooks<2>& books) {
       ASSERT_NEAR(books.kinetic_energy, 0.5, 1e-12) << "t = " << t;
     });
-    const auto& points = body.blocks[0].points;
+    const auto& points = body.blocks()[0].points;
     EXPECT_NEAR(points.x[0][0], 7, 1e-10);
     for (int c = 0; c < 4; ++c) EXPECT_NEAR(points.sigma[c][0], 0, 1e-9);
   }
@@ -155,7 +155,7 @@ TEST(Schemes, BlockWithItsEdgesOnLinesMovesOnAsItIs) {
 /// the stress of its weight and with a pressure of 20 kPa more and less from element to element. Nothing takes energy.
 double error_of_books(Cells cells, double safety) {
   auto body = soft_slope(cells, 0.5, 0.5 / 3, 0.45);
-  auto& points = body.blocks[0].points;
+  auto& points = body.blocks()[0].points;
   for (int p = 0; p < points.size(); ++p) {
     for (int j = 0; j < 3; ++j) points.sigma[j][p] += points.element[p] % 2 == 0 ? 20 : -20;
   }

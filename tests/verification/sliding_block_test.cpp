@@ -40,10 +40,10 @@ Slide slide(const Block& its, double time) {
     work += books.work_gravity - books.work_stress - books.dissipation_friction;
     gravity += books.work_gravity;
     kinetic = books.kinetic_energy;
-    for (const double y : body.blocks[0].points.x[1]) highest = std::max(highest, y);
+    for (const double y : body.blocks()[0].points.x[1]) highest = std::max(highest, y);
   });
   double moved = 0;
-  const auto& points = body.blocks[0].points;
+  const auto& points = body.blocks()[0].points;
   for (int p = 0; p < points.size(); ++p) moved += points.u(0, p) / points.size();
   return {moved, highest, (kinetic - work) / gravity};
 }

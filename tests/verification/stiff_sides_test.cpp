@@ -54,7 +54,7 @@ double pulse(double x) {
   return std::abs(s) < 1 ? 0.1 * std::pow(std::cos(0.5 * std::numbers::pi * s), 2) : 0;
 }
 void put_pulse(Body<2>& body) {
-  auto& points = body.blocks[0].points;
+  auto& points = body.blocks()[0].points;
   for (int p = 0; p < points.size(); ++p) {
     points.v[0][p] = pulse(points.x[0][p]);
     points.sigma[0][p] = -Z * points.v[0][p];
@@ -63,7 +63,7 @@ void put_pulse(Body<2>& body) {
 }
 /// Of the pulse that is back where it was: its amplitude.
 double amplitude(const Body<2>& body) {
-  const auto& points = body.blocks[0].points;
+  const auto& points = body.blocks()[0].points;
   double sum = 0, all = 0;
   for (int p = 0; p < points.size(); ++p) {
     const double f = pulse(points.x[0][p]);
@@ -104,7 +104,7 @@ TEST(StiffSide, WithoutEndIsAFixedOne) {
       put_pulse(*body);
       run_until(*body, 16 / c, 0.8, with(scheme), [](double, const StepBooks<2>&) {});
     }
-    const auto &a = fixed.blocks[0].points, &b = stiff.blocks[0].points;
+    const auto &a = fixed.blocks()[0].points, &b = stiff.blocks()[0].points;
     double difference = 0;
     for (int p = 0; p < a.size(); ++p) difference = std::max(difference, std::abs(a.v[0][p] - b.v[0][p]));
     std::printf("%s: velocities beside a fixed and a stiff side differ by up to %.1e of the pulse\n", name,
@@ -123,17 +123,17 @@ TEST(StiffSide, BooksAStepToTheLastDigit) {
       for (const double damping : {0.0, 0.3}) {
         auto body = bar();
         open_right(body, r, 5 * h);
-        auto& points = body.blocks[0].points;
+        auto& points = body.blocks()[0].points;
         for (int p = 0; p < points.size(); ++p) points.v[0][p] = some(random);
         double stored = 0;
-        for (auto& node : body.sides.node) {
+        for (auto& node : body.fields[0].outside.sides.node) {
           node.R[0] = some(random);
           node.u[0] = 1e-3 * some(random) / r;
           stored -= 0.5 * node.k[0] * node.u[0] * node.u[0];
         }
         const auto settings = with(scheme, damping);
         const auto books = advance(body, 0.8 * critical_time_step(body, scheme, damping), settings);
-        for (const auto& node : body.sides.node) stored += 0.5 * node.k[0] * node.u[0] * node.u[0];
+        for (const auto& node : body.fields[0].outside.sides.node) stored += 0.5 * node.k[0] * node.u[0] * node.u[0];
         EXPECT_NEAR(books.kinetic_energy - books.kinetic_energy_before,
                     books.work_boundary - books.dissipation_absorbing - books.stored_sides - books.dissipation_damping -
                         books.dissipation_pic,
@@ -174,7 +174,7 @@ void rests(Body<Dim> body, double r, const std::string& what) {
 template <int Dim>
 void bears(Body<Dim> body, double r, int steps, const std::string& what) {
   const auto settings = with(two_term_scheme());
-  auto& points = body.blocks[0].points;
+  auto& points = body.blocks()[0].points;
   body.gravity = {};
   for (auto& sigma : points.sigma) std::fill(sigma.begin(), sigma.end(), 0.0);
   open_all(body, settings, r);
@@ -231,7 +231,7 @@ TEST(StiffSide, IsNoWallWithFriction) {
   auto body = bar();
   wall(body.conditions, *body.mesh, body.mesh->node_sets.at("right"), 0, 0.2);
   try {
-    soil_beyond(body, {body.mesh->node_sets.at("right"), {}, {}});
+    soil_beyond(body, body.fields[0], {body.mesh->node_sets.at("right"), {}, {}});
     ADD_FAILURE() << "not refused";
   } catch (const InputError& error) {
     EXPECT_NE(error.problem().find("is no wall with friction"), std::string::npos) << error.what();

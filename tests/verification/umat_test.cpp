@@ -98,14 +98,14 @@ double difference_of_runs(const std::string& one, const std::string& other) {
     const auto books = advance(a, 0.3 * critical, {}), others = advance(b, 0.3 * critical, {});
     EXPECT_NEAR(others.stress.critical_dt / books.stress.critical_dt, 1, 1e-12);
     EXPECT_EQ(others.stress.failures, 0);
-    const auto &p = a.blocks[0].points, &q = b.blocks[0].points;
+    const auto &p = a.blocks()[0].points, &q = b.blocks()[0].points;
     for (std::size_t c = 0; c < 4; ++c) worst = std::max(worst, largest_difference(p.sigma[c], q.sigma[c]) / 100);
     for (std::size_t c = 0; c < 2; ++c) {
       worst = std::max(worst, largest_difference(p.x[c], q.x[c]));
       worst = std::max(worst, largest_difference(p.v[c], q.v[c]));
     }
   }
-  const auto& points = a.blocks[0].points;
+  const auto& points = a.blocks()[0].points;
   EXPECT_GT(*std::max_element(points.eps_q.begin(), points.eps_q.end()), 1e-3);  // something happened
   return worst;
 }
@@ -256,7 +256,7 @@ const io::Field& field(const std::vector<io::Field>& all, const std::string& nam
 TEST(UmatInTheMpm, StateIsKeptAndShownByName) {
   const CaseFolder folder;
   const auto body = run::build_body(folder.read(kinematic, "initial = { epsp_eq = 0.25 }"));
-  EXPECT_EQ(body.blocks[0].state.size(), 4u + 3u + 9u);
+  EXPECT_EQ(body.blocks()[0].state.size(), 4u + 3u + 9u);
   const auto frame = run::frame_of(body);
   const auto alpha = io::values_of<double>(field(frame.fields, "alpha"), frame.count);
   const auto equivalent = io::values_of<double>(field(frame.fields, "epsp_eq"), frame.count);
@@ -270,7 +270,7 @@ TEST(UmatInTheMpm, StateIsKeptAndShownByName) {
 TEST(UmatInTheMpm, TensorStateTurnsWithThePoints) {
   const CaseFolder folder;
   auto body = run::build_body(folder.read(kinematic));
-  auto& block = body.blocks[0];
+  auto& block = body.blocks()[0];
   auto& points = block.points;
   const std::array<double, 4> sigma{-6, -10, -7, 2};
   for (int p = 0; p < block.size(); ++p)

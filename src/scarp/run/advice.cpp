@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "scarp/base/error.hpp"
 #include "scarp/base/log.hpp"
@@ -55,7 +57,7 @@ struct Hollow {
   Hollow(const Region<Dim>& region, double spacing, const Body<Dim>& body) {
     const BoxOf<Dim> box = bounds(region);
     ZeroPages<std::uint8_t> holds(body.mesh->element_count());
-    for (const auto& block : body.blocks) {
+    for (const auto& block : body.blocks()) {
       for (const int e : block.points.element) holds[e] = 1;
     }
     for_elements_near(*body.mesh, box, [&](int e) {
@@ -87,21 +89,23 @@ double small_one(std::vector<double> edges) {
 
 template <int Dim>
 std::string points_per_element(const Body<Dim>& body) {
-  const auto& active = body.active;
-  std::vector<int> counts(active.element.size(), 0);
-  for (const auto& block : body.blocks) {
-    for (const int e : block.points.element) ++counts[active.slot[e]];
+  ZeroPages<int> counts(body.mesh->element_count());
+  std::vector<int> filled;
+  for (const auto& block : body.blocks()) {
+    for (const int e : block.points.element) {
+      if (counts[e]++ == 0) filled.push_back(e);
+    }
   }
-  const auto filled = counts.size();
-  const int least = filled > 0 ? *std::min_element(counts.begin(), counts.end()) : 0;
-  return fmt::format("{} in {} elements, {:.3g} each on average, {} at least", body.point_count(), filled,
-                     filled > 0 ? body.point_count() / static_cast<double>(filled) : 0.0, least);
+  int least = filled.empty() ? 0 : std::numeric_limits<int>::max();
+  for (const int e : filled) least = std::min(least, counts[e]);
+  return fmt::format("{} in {} elements, {:.3g} each on average, {} at least", body.point_count(), filled.size(),
+                     filled.empty() ? 0.0 : body.point_count() / static_cast<double>(filled.size()), least);
 }
 
 template <int Dim>
 void warn_of_sparse_points(const input::CaseOf<Dim>& input, const Body<Dim>& body) {
   for (std::size_t r = 0; r < input.regions.size(); ++r) {
-    const auto& element = body.blocks[r].points.element;
+    const auto& element = body.blocks()[r].points.element;
     if (element.empty()) continue;
     const auto& region = input.regions[r];
     std::vector<double> edges(element.size());

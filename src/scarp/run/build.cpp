@@ -172,15 +172,15 @@ Body<Dim> build_body(const input::CaseOf<Dim>& input) {
   int first_id = 0;
   for (std::size_t r = 0; r < input.regions.size(); ++r) {
     const auto& region = input.regions[r];
-    body.blocks.push_back(
+    body.fields[0].blocks.push_back(
         make_block(region, input.materials[region.material], fillings[r], input.axisymmetric, first_id));
-    first_id += body.blocks.back().size();
+    first_id += body.fields[0].blocks.back().size();
   }
   for (const auto& boundary : input.boundaries) check_boundary(*body.mesh, boundary);
   body.conditions = make_conditions(*body.mesh, input, [](const auto&) { return true; });
   const OverburdenOf<Dim> overburden(layers, std::abs(input.gravity[Dim - 1]));
   for (std::size_t r = 0; r < input.regions.size(); ++r) {
-    set_initial_state(body.blocks[r], input.regions[r], overburden);
+    set_initial_state(body.blocks()[r], input.regions[r], overburden);
   }
   try {
     locate_points(body, input.method.scheme != input::SchemeName::report);
@@ -193,7 +193,9 @@ Body<Dim> build_body(const input::CaseOf<Dim>& input) {
   }
   refuse_short_lengths(input, body);
   // What is wrong with a side that will absorb is said now.
-  for_each_absorbing(*body.mesh, input, [&](const auto& side, const auto&) { soil_beyond(body, side); });
+  for_each_absorbing(*body.mesh, input, [&](const auto& side, const auto&) {
+    for (const auto& field : body.fields) soil_beyond(body, field, side);
+  });
   return body;
 }
 

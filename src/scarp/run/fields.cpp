@@ -27,8 +27,8 @@ template <int Dim>
 Places places_of(const Body<Dim>& body) {
   constexpr int nowhere = -1;
   Places all(static_cast<std::size_t>(body.point_count()), {nowhere, 0});
-  for (int b = 0; b < static_cast<int>(body.blocks.size()); ++b) {
-    const auto& id = body.blocks[b].points.id;
+  for (int b = 0; b < static_cast<int>(body.blocks().size()); ++b) {
+    const auto& id = body.blocks()[b].points.id;
     for (std::size_t i = 0; i < id.size(); ++i) {
       const auto number = static_cast<std::size_t>(id[i]);
       if (number >= all.size()) all.resize(number + 1, {nowhere, 0});
@@ -56,21 +56,21 @@ class Collector {
   /// value(points, i) → double
   template <class F>
   void scalar(const std::string& name, F value) {
-    add<double>(name, [this_body = &body_, value](int b, int i) { return value(this_body->blocks[b].points, i); });
+    add<double>(name, [this_body = &body_, value](int b, int i) { return value(this_body->blocks()[b].points, i); });
   }
 
   /// component(points, i, j) → double
   template <class F>
   io::Field vector(const std::string& name, F component) const {
     return field<double>(name, 3, [this_body = &body_, component](int b, int i, int j) {
-      return j < Dim ? component(this_body->blocks[b].points, i, j) : 0.0;
+      return j < Dim ? component(this_body->blocks()[b].points, i, j) : 0.0;
     });
   }
 
   /// An array of the points that is shown as it is (PointArray::shown).
   void shown(const std::string& key) {
-    if (body_.blocks.empty()) return;
-    Points<Dim>::each(body_.blocks[0].points, [&]<class Member>(const PointArray& info, const Member&) {
+    if (body_.blocks().empty()) return;
+    Points<Dim>::each(body_.blocks()[0].points, [&]<class Member>(const PointArray& info, const Member&) {
       if (!info.shown || key != info.key) return;
       const auto of_block = members<Member>(key);
       if constexpr (std::is_same_v<Member, Column>) {
@@ -84,8 +84,9 @@ class Collector {
   }
 
   void flag(const std::string& name, PointFlag bit) {
-    add<std::uint8_t>(
-        name, [this_body = &body_, bit](int b, int i) { return (this_body->blocks[b].points.flags[i] & bit) ? 1 : 0; });
+    add<std::uint8_t>(name, [this_body = &body_, bit](int b, int i) {
+      return (this_body->blocks()[b].points.flags[i] & bit) ? 1 : 0;
+    });
   }
 
   /// A symmetric tensor from Mandel components; component(block number, i, c) → double
@@ -102,10 +103,10 @@ class Collector {
 
   /// κ̂ of soil that softens over a length, where there is some.
   void kappa_hat() {
-    const auto& blocks = body_.blocks;
+    const auto blocks = body_.blocks();
     if (std::none_of(blocks.begin(), blocks.end(), [](const auto& block) { return block.length > 0; })) return;
     add<double>("kappa_hat", [body = &body_](int b, int i) {
-      const auto& block = body->blocks[b];
+      const auto& block = body->blocks()[b];
       return block.length > 0 ? block.state.end()[-2][i] : nothing;
     });
   }
@@ -132,7 +133,7 @@ class Collector {
   template <class Member>
   std::vector<const Member*> members(const std::string& key) const {
     std::vector<const Member*> all;
-    for (const auto& block : body_.blocks) {
+    for (const auto& block : body_.blocks()) {
       Points<Dim>::each(block.points, [&]<class Other>(const PointArray& info, const Other& other) {
         if constexpr (std::is_same_v<Other, Member>) {
           if (key == info.key) all.push_back(&other);
@@ -154,9 +155,9 @@ void Collector<Dim>::model_fields() {
   // For each declared name: where each block keeps it (column of the state), or -1.
   std::map<std::string, std::pair<FieldKind, std::vector<int>>> state;
   std::map<std::string, std::vector<int>> derived;
-  const std::vector<int> nowhere(body_.blocks.size(), -1);
-  for (std::size_t b = 0; b < body_.blocks.size(); ++b) {
-    const auto description = description_of(body_.blocks[b].model);
+  const std::vector<int> nowhere(body_.blocks().size(), -1);
+  for (std::size_t b = 0; b < body_.blocks().size(); ++b) {
+    const auto description = description_of(body_.blocks()[b].model);
     int column = 0;
     for (const auto& info : description.state) {
       auto& entry = state.try_emplace(info.key, info.kind, nowhere).first->second;
@@ -169,7 +170,7 @@ void Collector<Dim>::model_fields() {
   }
   for (const auto& [name, entry] : state) {
     const auto value = [body = &body_, columns = entry.second](int b, int i, int c) {
-      return columns[b] < 0 ? nothing : body->blocks[b].state[columns[b] + c][i];
+      return columns[b] < 0 ? nothing : body->blocks()[b].state[columns[b] + c][i];
     };
     if (entry.first == FieldKind::tensor) {
       tensor(name, value);
@@ -188,7 +189,7 @@ void Collector<Dim>::derived_fields(const std::map<std::string, std::vector<int>
   const auto values = std::make_shared<std::vector<double>>(names * count(), nothing);
   exec::for_each(static_cast<int>(names > 0 ? count() : 0), [&](int k) {
     const Slot at = (*places_)[k];
-    exec::with_state(body_.blocks[at.block], at.index, [&](const auto& model, const auto& s) {
+    exec::with_state(body_.blocks()[at.block], at.index, [&](const auto& model, const auto& s) {
       const auto of_point = model.derived(s);
       double* to = values->data() + names * static_cast<std::size_t>(k);
       for (const auto& [name, index] : derived) {
@@ -223,7 +224,7 @@ double deviatoric_stress_of(const Points<Dim>& points, int i) {
 template <int Dim>
 Frame frame_of(const Body<Dim>& body) {
   Collector<Dim> collect(body);
-  const auto* blocks = body.blocks.data();
+  const auto blocks = body.blocks();
   collect.shown("id");
   collect.template add<std::int32_t>("region", [](int b, int) { return b; });
   collect.add(collect.vector("displacement", [](const Points<Dim>& p, int i, int j) { return p.u(j, i); }));

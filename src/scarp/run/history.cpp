@@ -14,6 +14,8 @@ bool is_used(const EnergyTerm& term, const input::CaseOf<Dim>& input) {
       return any(input.stages, [](const auto& stage) { return stage.release > 0; });
     case EnergyTerm::Use::absorbing:
       return any(input.boundaries, [](const auto& boundary) { return boundary.absorbing.has_value(); });
+    case EnergyTerm::Use::interaction:
+      return false;  // no case has two fields yet
     default:
       return true;
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "scarp/base/error.hpp"
 
@@ -14,10 +15,8 @@ template <int Dim>
 double largest_element(const Body<Dim>& body, const Block<Dim>& block) {
   if (body.mesh->grid) return *std::max_element(body.mesh->grid->spacing.begin(), body.mesh->grid->spacing.end());
   double variance = 0;
-  for (int slot = 0; slot < body.active.size(); ++slot) {
-    if (block.begin[slot] == block.begin[slot + 1]) continue;
-    variance = std::max(variance, step::shape_variance(*body.mesh, body.active.element[slot]));
-  }
+  for (const int e : std::set<int>(block.points.element.begin(), block.points.element.end()))
+    variance = std::max(variance, step::shape_variance(*body.mesh, e));
   return std::sqrt(6 * variance);
 }
 
@@ -28,7 +27,7 @@ void refuse_short_lengths(const input::CaseOf<Dim>& input, const Body<Dim>& body
   for (std::size_t r = 0; r < input.regions.size(); ++r) {
     const auto& material = input.materials[input.regions[r].material];
     if (!(material.length > 0)) continue;
-    const double h = largest_element(body, body.blocks[r]);
+    const double h = largest_element(body, body.blocks()[r]);
     if (material.length >= least_elements * h * (1 - 1e-9)) continue;
     throw InputError(
         fmt::format("the length over which the material \"{}\" softens is at least {:g} elements long in region \"{}\"",
@@ -46,7 +45,7 @@ std::vector<std::string> short_lengths(const input::CaseOf<Dim>& input, const Bo
   for (std::size_t r = 0; r < input.regions.size(); ++r) {
     const auto& material = input.materials[input.regions[r].material];
     if (!(material.length > 0)) continue;
-    const double h = largest_element(body, body.blocks[r]);
+    const double h = largest_element(body, body.blocks()[r]);
     if (material.length >= enough_elements * h * (1 - 1e-9)) continue;
     warnings.push_back(fmt::format(
         "the length {:g} of the material \"{}\" spans {:.2g} elements of {:.4g} m in region \"{}\": failure may come "

@@ -26,7 +26,7 @@ void Removal<Dim>::take_due(double time, Body<Dim>& body, Ledger<Dim>& ledger) {
   // bottom.
   const double bottom = finished() ? -std::numeric_limits<double>::infinity()
                                    : box_.high[up] - (box_.high[up] - box_.low[up]) * done_ / input_.lifts;
-  for (auto& block : body.blocks) {
+  for (auto& block : body.blocks()) {
     const auto& points = block.points;
     std::vector<std::uint8_t> gone(points.mass.size(), 0);
     for (int i = 0; i < block.size(); ++i) {

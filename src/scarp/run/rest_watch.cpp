@@ -10,7 +10,7 @@ namespace {
 /// f(block, i) for every point.
 template <int Dim, class F>
 void for_each_point(const Body<Dim>& body, F&& f) {
-  for (const auto& block : body.blocks) {
+  for (const auto& block : body.blocks()) {
     for (int i = 0; i < block.size(); ++i) f(block.points, i);
   }
 }

@@ -182,7 +182,7 @@ namespace {
 /// f(displacement, mass) of every point.
 template <int Dim, class F>
 void for_each_displacement(const Body<Dim>& body, F&& f) {
-  for (const auto& block : body.blocks) {
+  for (const auto& block : body.blocks()) {
     for (int i = 0; i < block.size(); ++i) {
       double u2 = 0;
       for (int j = 0; j < Dim; ++j) u2 += block.points.u(j, i) * block.points.u(j, i);

@@ -141,7 +141,7 @@ std::string check_in(const input::CaseOf<Dim>& input) {
   text += fmt::format("  mesh: {} elements, {} nodes, {}\n", body.mesh->element_count(), body.mesh->node_count(),
                       body.mesh->grid ? "a structured grid" : "unstructured");
   text += fmt::format("  points: {}\n", points_per_element(body));
-  for (const auto& block : body.blocks) {
+  for (const auto& block : body.blocks()) {
     double mass = 0, volume = 0;
     for (int i = 0; i < block.size(); ++i) {
       mass += block.points.mass[i];

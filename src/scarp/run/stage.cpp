@@ -18,7 +18,7 @@ namespace {
 
 template <int Dim>
 void set_to_zero(Body<Dim>& body, const input::StageInputOf<Dim>& stage, Ledger<Dim>& ledger) {
-  for (auto& block : body.blocks) {
+  for (auto& block : body.blocks()) {
     auto& points = block.points;
     if (stage.zero_displacement) {
       points.x_start = points.x;
@@ -149,18 +149,22 @@ template <int Dim>
 class LettingGo {
  public:
   LettingGo(double release, double start, Body<Dim>& body) : release_(release), start_(start), body_(body) {}
-  ~LettingGo() { body_.release.share = 0; }
+  ~LettingGo() { hold(0); }
   LettingGo(const LettingGo&) = delete;
   LettingGo& operator=(const LettingGo&) = delete;
 
   void before_step(double time, const StepSettings& settings) {
     if (!held_ && release_ > 0) hold_imbalance(body_, settings);
     held_ = true;
-    if (release_ > 0) body_.release.share = std::max(0.0, 1 - (time - start_) / release_);
+    if (release_ > 0) hold(std::max(0.0, 1 - (time - start_) / release_));
   }
   bool finished(double time) const { return time >= start_ + release_; }
 
  private:
+  void hold(double share) {
+    for (auto& field : body_.fields) field.outside.release.share = share;
+  }
+
   double release_, start_;
   bool held_ = false;
   Body<Dim>& body_;

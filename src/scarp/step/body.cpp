@@ -56,14 +56,22 @@ Body<Dim>::Body(std::unique_ptr<const Mesh<Dim>> background, const Vec<Dim>& gra
       locator(*mesh),
       conditions(mesh->node_count()),
       gravity(gravitational_acceleration) {
-  buffers.shift_row = largest_shift(*mesh);
-  if (!patches.empty()) buffers.full_volume = volumes_of_nodes(*mesh);
+  add_field("soil");
+  if (!patches.empty()) full_volume = volumes_of_nodes(*mesh);
+}
+
+template <int Dim>
+VelocityField<Dim>& Body<Dim>::add_field(std::string name) {
+  auto& field = fields.emplace_back();
+  field.name = std::move(name);
+  field.buffers.shift_row = largest_shift(*mesh);
+  return field;
 }
 
 template <int Dim>
 int Body<Dim>::point_count() const {
   int count = 0;
-  for (const auto& block : blocks) count += block.size();
+  for (const auto& field : fields) count += field.point_count();
   return count;
 }
 
@@ -72,16 +80,16 @@ namespace {
 /// Soil that spreads allocates nothing in its steps: there is room for four times as many active elements. What is not
 /// used costs no memory.
 template <int Dim>
-void make_room(Body<Dim>& body) {
+void make_room(const Body<Dim>& body, VelocityField<Dim>& field) {
   const auto elements = std::min(static_cast<std::size_t>(body.mesh->element_count()),
-                                 4 * static_cast<std::size_t>(body.active.size()) + 1000);
-  const auto row = static_cast<std::size_t>(body.assembly.row()), places = elements * row;
-  const auto padded = padded_row(body.assembly.row());
-  for (auto& block : body.blocks) reserve_order(block, elements);
-  body.active.element.reserve(elements);
-  body.active.fresh.reserve(elements);
-  body.assembly.reserve(elements, row);
-  auto& buffers = body.buffers;
+                                 4 * static_cast<std::size_t>(field.active.size()) + 1000);
+  const auto row = static_cast<std::size_t>(field.assembly.row()), places = elements * row;
+  const auto padded = padded_row(field.assembly.row());
+  for (auto& block : field.blocks) reserve_order(block, elements);
+  field.active.element.reserve(elements);
+  field.active.fresh.reserve(elements);
+  field.assembly.reserve(elements, row);
+  auto& buffers = field.buffers;
   buffers.inside.reserve(elements);
   buffers.size.reserve(elements);
   buffers.weight.reserve(elements);
@@ -97,15 +105,11 @@ void make_room(Body<Dim>& body) {
   buffers.is_changed.resize(body.mesh->element_count());
   buffers.shift.reserve(elements * buffers.shift_row);
   if (body.mesh->axisymmetric) buffers.hoop_shift.reserve(elements * padded);
-  buffers.mass_matrix.reserve(elements * mass_matrix_row(body.assembly.row()));
+  buffers.mass_matrix.reserve(elements * mass_matrix_row(field.assembly.row()));
   buffers.sums.reserve(places * transfer::node_sums<Dim>);
   buffers.momentum.reserve(places * transfer::momentum_size<Dim>);
   const auto nodes = std::min(places, static_cast<std::size_t>(body.mesh->node_count()));
-  buffers.node.reserve(nodes);
-  buffers.motion.reserve(nodes);
-  buffers.a_dt.reserve(nodes);
-  buffers.half_path.reserve(nodes);
-  buffers.resistance.reserve(nodes);
+  field.nodes.reserve(nodes);
   if (!body.patches.empty()) buffers.bounds.stiffness.reserve(nodes);
   buffers.books.reserve(places / element_chunk + 1);
 }
@@ -117,7 +121,7 @@ namespace {
 /// Points on a line between elements go to that with the most points inside: at the edge of a body to the element that
 /// it fills, of which every node has mass.
 template <int Dim>
-void prefer_full_elements(Body<Dim>& body) {
+void prefer_full_elements(const Body<Dim>& body, VelocityField<Dim>& field) {
   struct OnLine {
     Block<Dim>* block;
     int i;
@@ -125,7 +129,7 @@ void prefer_full_elements(Body<Dim>& body) {
   };
   std::vector<OnLine> on_line;
   ZeroPages<int> inside(body.mesh->element_count());
-  for (auto& block : body.blocks) {
+  for (auto& block : field.blocks) {
     for (int i = 0; i < block.size(); ++i) {
       const int e = block.points.element[i];
       auto elements = body.locator.elements_at(position_of(block.points, i), e);
@@ -149,10 +153,12 @@ void prefer_full_elements(Body<Dim>& body) {
 
 }  // namespace
 
+namespace {
+
 template <int Dim>
-void locate_points(Body<Dim>& body, bool prefer_full) {
+void locate_points(const Body<Dim>& body, VelocityField<Dim>& field, bool prefer_full) {
   double lightest = std::numeric_limits<double>::infinity();
-  for (auto& block : body.blocks) {
+  for (auto& block : field.blocks) {
     auto& points = block.points;
     if (!body.mesh->grid) {
       for (auto& column : points.xi) column.resize(block.size());
@@ -175,24 +181,31 @@ void locate_points(Body<Dim>& body, bool prefer_full) {
     }
     for (const double m : points.mass) lightest = std::min(lightest, m);
   }
-  if (prefer_full) prefer_full_elements(body);
-  body.least_mass = 1e-12 * lightest;
-  reorder(body);
-  make_room(body);
-  exec::arrange_in_new_memory(body.blocks);
-  body.out_of_place = 0;
+  if (prefer_full) prefer_full_elements(body, field);
+  field.least_mass = 1e-12 * lightest;
+  reorder(body, field);
+  make_room(body, field);
+  exec::arrange_in_new_memory(field.blocks);
+  field.out_of_place = 0;
+}
+
+}  // namespace
+
+template <int Dim>
+void locate_points(Body<Dim>& body, bool prefer_full) {
+  for (auto& field : body.fields) locate_points<Dim>(body, field, prefer_full);
 }
 
 namespace {
 
 /// What belongs to the set of active elements.
 template <int Dim>
-void rebuild(Body<Dim>& body) {
-  auto& buffers = body.buffers;
-  const auto& active = body.active;
-  body.assembly.rebuild(*body.mesh, active);
-  const auto slots = static_cast<std::size_t>(active.size()), places = body.assembly.places(),
-             nodes = static_cast<std::size_t>(body.assembly.size());
+void rebuild(const Body<Dim>& body, VelocityField<Dim>& field) {
+  auto& buffers = field.buffers;
+  const auto& active = field.active;
+  field.assembly.rebuild(*body.mesh, active);
+  const auto slots = static_cast<std::size_t>(active.size()), places = field.assembly.places(),
+             nodes = static_cast<std::size_t>(field.assembly.size());
   buffers.inside.resize(slots);
   buffers.size.resize(slots);
   for (int slot = 0; slot < active.size(); ++slot) {
@@ -214,38 +227,39 @@ void rebuild(Body<Dim>& body) {
     buffers.bounds.age = buffers.bounds.every;
   }
   buffers.shift.resize(slots * buffers.shift_row);
-  if (body.mesh->axisymmetric) buffers.hoop_shift.resize(slots * padded_row(body.assembly.row()));
-  buffers.mass_matrix.resize(slots * mass_matrix_row(body.assembly.row()));
+  if (body.mesh->axisymmetric) buffers.hoop_shift.resize(slots * padded_row(field.assembly.row()));
+  buffers.mass_matrix.resize(slots * mass_matrix_row(field.assembly.row()));
   buffers.sums.resize(places * transfer::node_sums<Dim>);
   buffers.momentum.resize(places * transfer::momentum_size<Dim>);
-  buffers.node.resize(nodes);
-  buffers.motion.resize(nodes);
-  buffers.a_dt.resize(nodes);
-  buffers.half_path.resize(nodes);
-  buffers.resistance.resize(nodes);
+  field.nodes.resize(nodes);
 }
 
 }  // namespace
 
 template <int Dim>
-void reorder(Body<Dim>& body) {
-  if (sort_by_element(body.blocks, body.mesh->element_count(), body.active)) rebuild(body);
-  prepare_threads(body);
-}
-
-template <int Dim>
-void prepare_threads(Body<Dim>& body) {
+void prepare_threads(VelocityField<Dim>& field) {
   int most = 0;
-  for (const auto& block : body.blocks) {
-    for (int first = 0; first < body.active.size(); first += element_chunk) {
-      const int last = std::min(body.active.size(), first + element_chunk);
+  for (const auto& block : field.blocks) {
+    for (int first = 0; first < field.active.size(); first += element_chunk) {
+      const int last = std::min(field.active.size(), first + element_chunk);
       most = std::max(most, block.begin[last] - block.begin[first]);
     }
   }
-  auto& strains = body.buffers.strains;
+  auto& strains = field.buffers.strains;
   const auto threads = static_cast<std::size_t>(exec::thread_count());
   if (strains.size() < threads) strains.resize(threads);
   for (auto& of_thread : strains) of_thread.reserve(most);
+}
+
+template <int Dim>
+void reorder(const Body<Dim>& body, VelocityField<Dim>& field) {
+  if (sort_by_element(field.blocks, body.mesh->element_count(), field.active)) rebuild(body, field);
+  prepare_threads(field);
+}
+
+template <int Dim>
+void reorder(Body<Dim>& body) {
+  for (auto& field : body.fields) reorder<Dim>(body, field);
 }
 
 template struct Body<2>;
@@ -254,7 +268,9 @@ template void locate_points<2>(Body<2>&, bool);
 template void locate_points<3>(Body<3>&, bool);
 template void reorder<2>(Body<2>&);
 template void reorder<3>(Body<3>&);
-template void prepare_threads<2>(Body<2>&);
-template void prepare_threads<3>(Body<3>&);
+template void reorder<2>(const Body<2>&, VelocityField<2>&);
+template void reorder<3>(const Body<3>&, VelocityField<3>&);
+template void prepare_threads<2>(VelocityField<2>&);
+template void prepare_threads<3>(VelocityField<3>&);
 
 }  // namespace scarp

@@ -1,132 +1,110 @@
-// Everything that a time step works on: the mesh with its conditions, the material points, and the sums at the nodes.
+// Everything that a time step works on: the background mesh with its conditions, the fields of velocity on it, and what
+// these do to each other.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
+#include <iterator>
 #include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
-#include "scarp/base/zero_pages.hpp"
 #include "scarp/boundary/conditions.hpp"
-#include "scarp/exec/assembly.hpp"
 #include "scarp/mesh/locate.hpp"
 #include "scarp/mesh/mesh.hpp"
 #include "scarp/mesh/patches.hpp"
-#include "scarp/points/points.hpp"
-#include "scarp/step/books.hpp"
-#include "scarp/step/nonlocal.hpp"
-#include "scarp/step/release.hpp"
-#include "scarp/step/sides.hpp"
-#include "scarp/transfer/transfer.hpp"
+#include "scarp/step/interaction.hpp"
+#include "scarp/step/velocity_field.hpp"
 
 namespace scarp {
 
-/// A node of the background mesh within a step.
-template <int Dim>
-struct Node {
-  double m = 0;           ///< eq. 1
-  double per_mass = 0;    ///< 1 / m
-  Vec<Dim> v{};           ///< v^t
-  std::uint8_t held = 0;  ///< bit j set where the conditions hold component j
-  bool acted_on = false;  ///< by conditions, damping, a side, or what holds an imbalance back?
-};
+/// The blocks of some fields, one field after the other: a range of Block<Dim>, or of const ones of const fields.
+template <class Field>
+class BlocksOf {
+  using Block = std::remove_reference_t<decltype((std::declval<Field&>().blocks[0]))>;
+  using BlockRef = std::conditional_t<std::is_const_v<Field>, const std::remove_const_t<Block>, Block>;
 
-/// Forces on a node that take energy from the body.
-template <int Dim>
-struct Resistance {
-  Vec<Dim> F_damping{};   ///< local damping
-  Vec<Dim> F_friction{};  ///< of a wall
-  Vec<Dim> F_dashpot{};   ///< of an absorbing side
-};
+ public:
+  class Iterator {
+   public:
+    using iterator_category = std::forward_iterator_tag;
+    using value_type = Block;
+    using difference_type = std::ptrdiff_t;
+    using pointer = BlockRef*;
+    using reference = BlockRef&;
 
-/// What a triangle or tetrahedron has of the mean dilatation of its patch (patches.hpp).
-struct PatchShare {
-  double V = 0;      ///< its volume; zero where it has none
-  double p = 0;      ///< mean stress of its points
-  double theta = 0;  ///< its own volume strain
-};
+    Iterator() = default;
+    Iterator(Field* field, Field* end) : field_(field), end_(end) { skip_empty(); }
+    BlockRef& operator*() const { return field_->blocks[at_]; }
+    BlockRef* operator->() const { return &**this; }
+    Iterator& operator++() {
+      ++at_;
+      skip_empty();
+      return *this;
+    }
+    Iterator operator++(int) {
+      const Iterator before = *this;
+      ++*this;
+      return before;
+    }
+    bool operator==(const Iterator& other) const { return field_ == other.field_ && at_ == other.at_; }
 
-/// What nodes have to say of the time step, where there are triangles or tetrahedra (node_rates.hpp). Soil moves by
-/// parts of an element between one time that this is found and the next.
-struct NodeBounds {
-  int every = 8;  ///< steps from one time to the next; at once where elements are new
-  int age = 0;    ///< steps since the last one
-  // Of each slot:
-  Column filled;          ///< w Σ Ω_p
-  Column least_per_mass;  ///< of Strains::per_mass
-  // Of each active node:
-  Column stiffness;  ///< ½ G_n / m_n
-};
+   private:
+    void skip_empty() {
+      while (field_ != end_ && at_ == field_->blocks.size()) {
+        ++field_;
+        at_ = 0;
+      }
+    }
+    Field *field_ = nullptr, *end_ = nullptr;
+    std::size_t at_ = 0;
+  };
 
-/// Buffers of a step.
-template <int Dim>
-struct Buffers {
-  // Of each slot:
-  std::vector<std::uint8_t> inside;  ///< are all elements around it active, too?
-  Column size;                       ///< Mesh::size_of its element
-  Column weight;                     ///< w of its quadrature
-  Column shift;                      ///< transfer::Shift of its quadrature, as stored: shift_row numbers
-  std::size_t shift_row = 0;
-  std::vector<std::uint8_t> left;             ///< has a point left it in this step?
-  std::vector<std::uint8_t> mean_dilatation;  ///< is the volume strain of its points a mean?
-  Column mean_gradient;                       ///< B̄_i of such a cell of GIMP
-  std::vector<PatchShare> patch_share;        ///< of triangles and tetrahedra
-  NodeBounds bounds;
-  Column hoop_shift;   ///< the same of N_i / r, in a body of revolution
-  Column mass_matrix;  ///< M_ij, where elements keep it
-  // Of each place of the assembly:
-  Column sums;      ///< transfer::node_sums numbers
-  Column momentum;  ///< up to transfer::momentum_size numbers
-  // Of each active node:
-  std::vector<Node<Dim>> node;
-  std::vector<transfer::Motion<Dim>> motion;
-  std::vector<Vec<Dim>> a_dt;  ///< a dt; where there is a PIC share, with P of held components only
-  std::vector<Vec<Dim>>
-      half_path;  ///< with P, of nodes acted on: ½ P v^t dt, half of what forces work on; of a held component its du
-  std::vector<Resistance<Dim>> resistance;  ///< with damping, and where nodes are not free
-  // Of every node of the mesh, where there are simplices:
-  Column full_volume;                 ///< Σ V_e / K_e of the K_e nodes of elements e
-  std::vector<Strains<Dim>> strains;  ///< of each thread
-  std::vector<StepBooks<Dim>> books;  ///< of each chunk
-  // Elements whose quadrature changes with the points that do (reweighted.hpp), and which of all these are.
-  std::vector<int> changed;
-  ZeroPages<std::uint8_t> is_changed;
+  BlocksOf(Field* first, Field* last) : first_(first), last_(last) {}
+  Iterator begin() const { return {first_, last_}; }
+  Iterator end() const { return {last_, last_}; }
+  std::size_t size() const {
+    std::size_t count = 0;
+    for (Field* field = first_; field != last_; ++field) count += field->blocks.size();
+    return count;
+  }
+  bool empty() const { return size() == 0; }
+  /// Block b of all, which must be there.
+  BlockRef& operator[](std::size_t b) const {
+    Field* field = first_;
+    for (; b >= field->blocks.size(); ++field) b -= field->blocks.size();
+    return field->blocks[b];
+  }
+
+ private:
+  Field *first_, *last_;
 };
 
 /// Soil on its background mesh. The mesh is held by pointer, so that it stays where the locator saw it.
 template <int Dim>
 struct Body {
+  /// With one field, "soil", that has no blocks yet.
   Body(std::unique_ptr<const Mesh<Dim>> background, const Vec<Dim>& gravitational_acceleration);
 
   std::unique_ptr<const Mesh<Dim>> mesh;
   Patches patches;  ///< of its triangles or tetrahedra
+  Column
+      full_volume;  ///< of each node of a mesh with patches: Σ V_e / K_e over the elements e, of K_e nodes, around it
   Locator<Dim> locator;
   Conditions<Dim> conditions;
   Vec<Dim> gravity;
-  Release<Dim> release;
-  Sides<Dim> sides;
-  std::vector<Block<Dim>> blocks;
+  std::vector<VelocityField<Dim>> fields;
+  std::vector<std::unique_ptr<const Interaction<Dim>>> interactions;  ///< between fields, in this order
 
-  ActiveElements active;
-  exec::Assembly assembly;
-  double least_mass = 0;  ///< a node with less only has points on the far edges of its elements, and is left out
-  std::int64_t out_of_place = 0;  ///< points that changed element since their arrays were last put in order
-  Buffers<Dim> buffers;
-  Averages<Dim> averages;  ///< of soil that softens over a length
+  /// One more field, without blocks. References to the others are no longer good.
+  VelocityField<Dim>& add_field(std::string name);
 
+  /// The blocks of all fields.
+  BlocksOf<VelocityField<Dim>> blocks() { return {fields.data(), fields.data() + fields.size()}; }
+  BlocksOf<const VelocityField<Dim>> blocks() const { return {fields.data(), fields.data() + fields.size()}; }
   int point_count() const;
 };
-
-/// The sweep that hands strain increments to the law goes in chunks of so many elements, whose increments stay in the
-/// innermost cache. Those that add to places of nodes go in the chunks of the assembly.
-inline constexpr int element_chunk = 64;
-
-/// Numbers that an element of up to `row` nodes keeps for a component of its nodes, and for its mass matrix.
-inline std::size_t padded_row(int row) {
-  return static_cast<std::size_t>(row <= 4 ? 4 : (row + 7) / 8 * 8);
-}
-inline std::size_t mass_matrix_row(int row) {
-  return transfer::mass_matrix_size(row, padded_row(row));
-}
 
 /// Finds the element of every point anew and prepares the first step; displacements count from here. Throws InputError
 /// where a point is outside the mesh. A point on a line between elements goes to the first of them, or with
@@ -134,12 +112,14 @@ inline std::size_t mass_matrix_row(int row) {
 template <int Dim>
 void locate_points(Body<Dim>& body, bool prefer_full = false);
 
-/// Orders points and buffers by element after points have moved or gone.
+/// Orders points and buffers of all fields, or one, by element after points have moved or gone.
 template <int Dim>
 void reorder(Body<Dim>& body);
+template <int Dim>
+void reorder(const Body<Dim>& body, VelocityField<Dim>& field);
 
 /// Room for the strain increments of a chunk, for each thread.
 template <int Dim>
-void prepare_threads(Body<Dim>& body);
+void prepare_threads(VelocityField<Dim>& field);
 
 }  // namespace scarp

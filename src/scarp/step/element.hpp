@@ -14,36 +14,36 @@ PointRange points_of(const Block<Dim>& block, int slot) {
 
 /// Zero in the places of the elements from slot `first` on, n numbers each.
 template <int Dim>
-void clear_places(const Body<Dim>& body, int first, Column& numbers, int n) {
-  const int chunk = first / body.assembly.chunk();
-  std::fill(numbers.begin() + static_cast<std::ptrdiff_t>(body.assembly.first_place(chunk)) * n,
-            numbers.begin() + static_cast<std::ptrdiff_t>(body.assembly.last_place(chunk)) * n, 0.0);
+void clear_places(const VelocityField<Dim>& field, int first, Column& numbers, int n) {
+  const int chunk = first / field.assembly.chunk();
+  std::fill(numbers.begin() + static_cast<std::ptrdiff_t>(field.assembly.first_place(chunk)) * n,
+            numbers.begin() + static_cast<std::ptrdiff_t>(field.assembly.last_place(chunk)) * n, 0.0);
 }
 
 /// The Motion of the local nodes of an element, from component `first` on.
 template <class Basis>
-transfer::NodeRows<Basis> motion_of_nodes(const Body<Basis::dim>& body, int slot, int first = 0) {
-  const int* k = body.assembly.nodes_of(slot);
+transfer::NodeRows<Basis> motion_of_nodes(const VelocityField<Basis::dim>& field, int slot, int first = 0) {
+  const int* k = field.assembly.nodes_of(slot);
   transfer::NodeRows<Basis> rows;
-  for (int i = 0; i < Basis::nodes; ++i) rows[i] = body.buffers.motion[k[i]].row.data() + first;
+  for (int i = 0; i < Basis::nodes; ++i) rows[i] = field.nodes.motion[k[i]].row.data() + first;
   return rows;
 }
 
 /// A node that no point has a share in, in an element whose points lie on a line, has no velocity of its own. In place
 /// of none it takes the mean of the element's other nodes: a body that moves is not strained where it ends on a line.
 template <class Basis>
-void mend_massless(const Body<Basis::dim>& body, int slot, transfer::NodeRows<Basis>& rows,
+void mend_massless(const VelocityField<Basis::dim>& field, int slot, transfer::NodeRows<Basis>& rows,
                    transfer::Motion<Basis::dim>& mean) {
-  const int* k = body.assembly.nodes_of(slot);
+  const int* k = field.assembly.nodes_of(slot);
   int heavy = 0;
   for (int i = 0; i < Basis::nodes; ++i) {
-    if (body.buffers.node[k[i]].m == 0) continue;
+    if (field.nodes.node[k[i]].m == 0) continue;
     ++heavy;
     for (std::size_t c = 0; c < mean.row.size(); ++c) mean.row[c] += rows[i][c];
   }
   for (double& x : mean.row) x /= std::max(heavy, 1);
   for (int i = 0; i < Basis::nodes; ++i) {
-    if (body.buffers.node[k[i]].m == 0) rows[i] = mean.row.data();
+    if (field.nodes.node[k[i]].m == 0) rows[i] = mean.row.data();
   }
 }
 

@@ -18,14 +18,14 @@ namespace {
 
 /// f(first, last, part) for chunks of the active elements.
 template <int Dim, class F>
-void for_each_chunk(Body<Dim>& body, int chunk, StepBooks<Dim>& books, F&& f) {
-  exec::sum_over_chunks(body.active.size(), chunk, body.buffers.books, books, f);
+void for_each_chunk(VelocityField<Dim>& field, int chunk, StepBooks<Dim>& books, F&& f) {
+  exec::sum_over_chunks(field.active.size(), chunk, field.buffers.books, books, f);
 }
 
 /// f(basis, slot, element) for the active elements in some slots.
 template <int Dim, class F>
-void for_each_element(const Body<Dim>& body, int first, int last, F&& f) {
-  with_basis<Dim>(*body.mesh, body.active.element.data(), first, last, f);
+void for_each_element(const Body<Dim>& body, const VelocityField<Dim>& field, int first, int last, F&& f) {
+  with_basis<Dim>(*body.mesh, field.active.element.data(), first, last, f);
 }
 
 /// What the mean stress of an element acts on: B̄_i of its own, or those of a patch, to which it then goes.
@@ -50,9 +50,10 @@ void use_means(Buffers<Basis::dim>& buffers, int slot, const transfer::ElementSu
 /// Step 1 in an element; adds Σ m_p |v_p|² of its points to m_v2. With `averaged` the volume strain of its points is a
 /// mean; where it turns out not to be full, nothing has been added and the answer is false.
 template <class Basis, class Places, class Averaged>
-SCARP_FLATTEN bool sum_points(Body<Basis::dim>& body, const Places& places, const StepSettings& settings, int slot,
-                              int e, Averaged averaged, PointBatch<Basis::dim>& m_v2) {
-  auto& buffers = body.buffers;
+SCARP_FLATTEN bool sum_points(Body<Basis::dim>& body, VelocityField<Basis::dim>& field, const Places& places,
+                              const StepSettings& settings, int slot, int e, Averaged averaged,
+                              PointBatch<Basis::dim>& m_v2) {
+  auto& buffers = field.buffers;
   const typename Basis::Cell cell(*body.mesh, e);
   const transfer::ShapesAtPoints<Basis> shapes(cell);
   std::optional<transfer::Means<Basis>> means;  // of an element inside the soil
@@ -60,7 +61,7 @@ SCARP_FLATTEN bool sum_points(Body<Basis::dim>& body, const Places& places, cons
     if (settings.quadrature == Quadrature::corrected && buffers.inside[slot]) means.emplace(cell);
   }
   transfer::ElementSums<Basis> sums;
-  for (const auto& block : body.blocks) {
+  for (const auto& block : field.blocks) {
     transfer::points_to_nodes<Basis>(shapes, places, block.points, points_of(block, slot), averaged, sums);
   }
   if (averaged && !transfer::fills(xsimd::hadd(sums.Omega), *means)) [[unlikely]]
@@ -80,24 +81,24 @@ SCARP_FLATTEN bool sum_points(Body<Basis::dim>& body, const Places& places, cons
   quadrature.shift.store(buffers.shift.data() + slot * buffers.shift_row);
   if constexpr (is_axisymmetric<Basis>) {
     transfer::store_nodal<Basis>(quadrature.hoop_shift[0],
-                                 buffers.hoop_shift.data() + slot * padded_row(body.assembly.row()));
+                                 buffers.hoop_shift.data() + slot * padded_row(field.assembly.row()));
   }
   if constexpr (transfer::keeps_mass_matrix<Basis>) {
-    transfer::store_mass_matrix(sums, buffers.mass_matrix.data() + slot * mass_matrix_row(body.assembly.row()));
+    transfer::store_mass_matrix(sums, buffers.mass_matrix.data() + slot * mass_matrix_row(field.assembly.row()));
   }
-  transfer::add_to_nodes<Basis>(sums, transfer::internal_force<Basis>(sums, quadrature), body.assembly.places_of(slot),
+  transfer::add_to_nodes<Basis>(sums, transfer::internal_force<Basis>(sums, quadrature), field.assembly.places_of(slot),
                                 buffers.sums.data());
   return true;
 }
 
 /// Step 1 in an element; adds Σ m_p |v_p|² of its points to m_v2.
 template <class Basis, class Places>
-void sum_points(Body<Basis::dim>& body, const Places& places, const StepSettings& settings, int slot, int e,
-                PointBatch<Basis::dim>& m_v2) {
+void sum_points(Body<Basis::dim>& body, VelocityField<Basis::dim>& field, const Places& places,
+                const StepSettings& settings, int slot, int e, PointBatch<Basis::dim>& m_v2) {
   const bool averaged =
-      settings.scheme.mean_dilatation && settings.quadrature == Quadrature::corrected && body.buffers.inside[slot];
+      settings.scheme.mean_dilatation && settings.quadrature == Quadrature::corrected && field.buffers.inside[slot];
   bool done = false;
-  const auto sum = [&](auto means) { done = sum_points<Basis>(body, places, settings, slot, e, means, m_v2); };
+  const auto sum = [&](auto means) { done = sum_points<Basis>(body, field, places, settings, slot, e, means, m_v2); };
   transfer::with_means<Basis>(averaged, sum);
   if (!done) transfer::with_means<Basis>(false, sum);  // few elements inside the soil are not full
 }
@@ -105,13 +106,14 @@ void sum_points(Body<Basis::dim>& body, const Places& places, const StepSettings
 /// Σ_j M_ij w_j of the first n components w of the nodes' Motion, of all of them those from `from` on, in an element
 /// that does not keep M_ij.
 template <class Basis, int n>
-SCARP_FLATTEN void add_momentum_of_points(Body<Basis::dim>& body, int slot, int e, int from) {
+SCARP_FLATTEN void add_momentum_of_points(Body<Basis::dim>& body, VelocityField<Basis::dim>& field, int slot, int e,
+                                          int from) {
   constexpr int Dim = Basis::dim, size = transfer::place_size<n>;
   const typename Basis::Cell cell(*body.mesh, e);
-  const int* places = body.assembly.places_of(slot);
-  double* momentum = body.buffers.momentum.data();
-  const auto rows = motion_of_nodes<Basis>(body, slot, from);
-  for (const auto& block : body.blocks) {
+  const int* places = field.assembly.places_of(slot);
+  double* momentum = field.buffers.momentum.data();
+  const auto rows = motion_of_nodes<Basis>(field, slot, from);
+  for (const auto& block : field.blocks) {
     const PointRange range = points_of(block, slot);
     if (from == 0) {
       transfer::add_momentum<Basis, n, size, 0>(cell, block.points, range, rows, places, momentum);
@@ -162,12 +164,12 @@ unsigned still_inside(const typename Basis::Cell& cell, const Lanes& p, const st
 /// Have the nodes of an element masses that differ by no more than a factor of five, in simplices over those of a full
 /// mesh? A last point that lingers beyond a free edge would leave a node with next to no mass, or less than none.
 template <class Basis>
-bool nodes_are_full(const Body<Basis::dim>& body, int slot) {
+bool nodes_are_full(const Body<Basis::dim>& body, const VelocityField<Basis::dim>& field, int slot) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
-  const int* nodes = body.assembly.nodes_of(slot);
+  const int* nodes = field.assembly.nodes_of(slot);
   for (int i = 0; i < Basis::nodes; ++i) {
-    double m = body.buffers.node[nodes[i]].m;
-    if constexpr (is_simplex<Basis>) m /= body.buffers.full_volume[body.assembly.node(nodes[i])];
+    double m = field.nodes.node[nodes[i]].m;
+    if constexpr (is_simplex<Basis>) m /= body.full_volume[field.assembly.node(nodes[i])];
     least = std::min(least, m);
     most = std::max(most, m);
   }
@@ -178,11 +180,11 @@ bool nodes_are_full(const Body<Basis::dim>& body, int slot) {
 /// mesh goes on. Each change of element weights the stored energy of two elements anew; points that lie on a line
 /// between elements and cross it to and fro would bring in more with each vibration (docs/theory.md, "Late leaving").
 template <class Basis, class T>
-unsigned linger(const Body<Basis::dim>& body, const typename Basis::Cell& cell, int slot,
-                const std::array<T, Basis::dim>& xi, double lateness) {
+unsigned linger(const Body<Basis::dim>& body, const VelocityField<Basis::dim>& field, const typename Basis::Cell& cell,
+                int slot, const std::array<T, Basis::dim>& xi, double lateness) {
   if constexpr (Basis::has_domains) return 0;  // its functions are continuous, and hold within the cell only
-  if (lateness == 0 || !nodes_are_full<Basis>(body, slot)) return 0;
-  const int e = body.active.element[slot];
+  if (lateness == 0 || !nodes_are_full<Basis>(body, field, slot)) return 0;
+  const int e = field.active.element[slot];
   std::array<double, Basis::sides> tolerance;
   for (int side = 0; side < Basis::sides; ++side)
     tolerance[side] = body.locator.ends_at(e, side) ? body.locator.tolerance() : lateness;
@@ -220,13 +222,13 @@ struct MotionBooks {
 
 /// The volume strain of all points of an element.
 template <class Basis>
-double mean_dilation(const Body<Basis::dim>& body, int slot, const typename Basis::Cell& cell,
-                     const transfer::NodeRows<Basis>& motion) {
+double mean_dilation(const Body<Basis::dim>& body, const VelocityField<Basis::dim>& field, int slot,
+                     const typename Basis::Cell& cell, const transfer::NodeRows<Basis>& motion) {
   using Means = transfer::Means<Basis>;
   if constexpr (is_simplex<Basis>) {
-    return mean_over_patch(body, body.active.element[slot], &PatchShare::theta);
+    return mean_over_patch(body, field, field.active.element[slot], &PatchShare::theta);
   } else if constexpr (transfer::keeps_means<Basis>) {
-    return Means::dilation(body.buffers.mean_gradient.data() + slot * Means::size, motion, Basis::dim);
+    return Means::dilation(field.buffers.mean_gradient.data() + slot * Means::size, motion, Basis::dim);
   } else {
     return transfer::mean_dilation<Basis>(cell, motion);
   }
@@ -234,55 +236,56 @@ double mean_dilation(const Body<Basis::dim>& body, int slot, const typename Basi
 
 /// Steps 4, 6, 8, 9, 10 and 11 for the points of a block in an element.
 template <bool pic, class Basis, class Averaged>
-SCARP_FLATTEN void move_points(Body<Basis::dim>& body, Block<Basis::dim>& block, int slot, int e,
-                               const MoveRules& rules, Strains<Basis::dim>& strains, int at, Averaged averaged,
-                               MotionBooks<Basis::dim>& motion, StepBooks<Basis::dim>& books) {
+SCARP_FLATTEN void move_points(Body<Basis::dim>& body, VelocityField<Basis::dim>& field, Block<Basis::dim>& block,
+                               int slot, int e, const MoveRules& rules, Strains<Basis::dim>& strains, int at,
+                               Averaged averaged, MotionBooks<Basis::dim>& motion, StepBooks<Basis::dim>& books) {
   const typename Basis::Cell cell(*body.mesh, e);
-  transfer::ElementMotion<Basis> element{motion_of_nodes<Basis>(body, slot),
+  transfer::ElementMotion<Basis> element{motion_of_nodes<Basis>(field, slot),
                                          {},
-                                         body.buffers.shift.data() + slot * body.buffers.shift_row,
-                                         body.buffers.weight[slot],
-                                         body.buffers.size[slot],
+                                         field.buffers.shift.data() + slot * field.buffers.shift_row,
+                                         field.buffers.weight[slot],
+                                         field.buffers.size[slot],
                                          nullptr,
                                          0,
                                          0};
-  if constexpr (is_simplex<Basis>) element.least_per_mass = body.buffers.bounds.least_per_mass[slot];
+  if constexpr (is_simplex<Basis>) element.least_per_mass = field.buffers.bounds.least_per_mass[slot];
   if constexpr (is_axisymmetric<Basis>) {
-    element.hoop_shift = body.buffers.hoop_shift.data() + slot * padded_row(body.assembly.row());
+    element.hoop_shift = field.buffers.hoop_shift.data() + slot * padded_row(field.assembly.row());
   }
   transfer::Motion<Basis::dim> mean_motion;
-  if (rules.mends_massless) mend_massless<Basis>(body, slot, element.motion, mean_motion);
+  if (rules.mends_massless) mend_massless<Basis>(field, slot, element.motion, mean_motion);
   if constexpr (pic) {
-    const int* k = body.assembly.nodes_of(slot);
-    for (int i = 0; i < Basis::nodes; ++i) element.a_dt[i] = body.buffers.a_dt[k[i]].data();
+    const int* k = field.assembly.nodes_of(slot);
+    for (int i = 0; i < Basis::nodes; ++i) element.a_dt[i] = field.nodes.a_dt[k[i]].data();
   }
-  if (averaged) element.mean_dilation = mean_dilation<Basis>(body, slot, cell, element.motion);
+  if (averaged) element.mean_dilation = mean_dilation<Basis>(body, field, slot, cell, element.motion);
   const std::int64_t changed = books.changed_element;
   transfer::nodes_to_points<pic, Basis>(
       cell, element, rules.motion, block.points, points_of(block, slot), strains, at, averaged, motion.sums,
       [&](const auto& p, const auto& x, const auto& before) {
-        const unsigned inside =
-            still_inside<Basis>(cell, p, x, before, body.locator.tolerance(), block.points,
-                                [&](const auto& xi) { return linger<Basis>(body, cell, slot, xi, rules.lateness); });
+        const unsigned inside = still_inside<Basis>(
+            cell, p, x, before, body.locator.tolerance(), block.points,
+            [&](const auto& xi) { return linger<Basis>(body, field, cell, slot, xi, rules.lateness); });
         motion.stayed += std::popcount(inside);
         if (inside != first_bits(p.count())) [[unlikely]]
           find_new_elements(body.locator, e, p, inside, block.points, books);
       });
   if (books.changed_element != changed) [[unlikely]]
-    body.buffers.left[slot] = 1;
+    field.buffers.left[slot] = 1;
 }
 
 /// Of a chunk of elements. Inlined it has not all registers.
 template <bool pic, int Dim>
-[[gnu::noinline]] void strain_and_move(Body<Dim>& body, Block<Dim>& block, int first, int last, const MoveRules& rules,
-                                       Strains<Dim>& strains, exec::GapSharing<Dim>* sharing, StepBooks<Dim>& books) {
+[[gnu::noinline]] void strain_and_move(Body<Dim>& body, VelocityField<Dim>& field, Block<Dim>& block, int first,
+                                       int last, const MoveRules& rules, Strains<Dim>& strains,
+                                       exec::GapSharing<Dim>* sharing, StepBooks<Dim>& books) {
   MotionBooks<Dim> motion;
-  for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
+  for_each_element(body, field, first, last, [&]<class Basis>(Basis, int slot, int e) {
     const int at = block.begin[slot] - block.begin[first];
-    transfer::with_means<Basis>(body.buffers.mean_dilatation[slot] != 0, [&](auto averaged) {
-      move_points<pic, Basis>(body, block, slot, e, rules, strains, at, averaged, motion, books);
+    transfer::with_means<Basis>(field.buffers.mean_dilatation[slot] != 0, [&](auto averaged) {
+      move_points<pic, Basis>(body, field, block, slot, e, rules, strains, at, averaged, motion, books);
     });
-    if (sharing) sharing->in_element(points_of(block, slot), body.buffers.size[slot], at);
+    if (sharing) sharing->in_element(points_of(block, slot), field.buffers.size[slot], at);
   });
   book(motion.sums, books);
   books.search.own += motion.stayed;
@@ -292,8 +295,8 @@ template <bool pic, int Dim>
 
 /// The columns that only some schemes have; σ* starts as the stress it is, and C_p as nothing.
 template <int Dim>
-void prepare_columns(Body<Dim>& body, const Scheme& scheme) {
-  for (auto& block : body.blocks) {
+void prepare_columns(Body<Dim>& body, VelocityField<Dim>& field, const Scheme& scheme) {
+  for (auto& block : field.blocks) {
     auto& points = block.points;
     const bool ahead = scheme::waves(scheme, is_elastic(block.model)).damped();
     for (int c = 0; c < sym_size<Dim>; ++c) {
@@ -312,34 +315,35 @@ void prepare_columns(Body<Dim>& body, const Scheme& scheme) {
 }  // namespace
 
 template <int Dim>
-void map_points_to_elements(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books) {
-  prepare_columns(body, settings.scheme);
-  for_each_chunk(body, body.assembly.chunk(), books, [&](int first, int last, StepBooks<Dim>& part) {
+void map_points_to_elements(Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings,
+                            StepBooks<Dim>& books) {
+  prepare_columns(body, field, settings.scheme);
+  for_each_chunk(field, field.assembly.chunk(), books, [&](int first, int last, StepBooks<Dim>& part) {
     PointBatch<Dim> m_v2(0.0);
-    clear_places(body, first, body.buffers.sums, transfer::node_sums<Dim>);
-    for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
-      if constexpr (is_simplex<Basis>) body.buffers.patch_share[slot] = {};
+    clear_places(field, first, field.buffers.sums, transfer::node_sums<Dim>);
+    for_each_element(body, field, first, last, [&]<class Basis>(Basis, int slot, int e) {
+      if constexpr (is_simplex<Basis>) field.buffers.patch_share[slot] = {};
       if (settings.scheme.affine) {
-        sum_points<Basis>(body, transfer::NodePlaces<Basis>(*body.mesh, e), settings, slot, e, m_v2);
+        sum_points<Basis>(body, field, transfer::NodePlaces<Basis>(*body.mesh, e), settings, slot, e, m_v2);
       } else {
-        sum_points<Basis>(body, transfer::NoPlaces{}, settings, slot, e, m_v2);
+        sum_points<Basis>(body, field, transfer::NoPlaces{}, settings, slot, e, m_v2);
       }
     });
     part.kinetic_energy_before = 0.5 * xsimd::hadd(m_v2);
   });
-  if (uses_patches(body, settings)) add_mean_stresses(body, books);
+  if (uses_patches(body, settings)) add_mean_stresses(body, field, books);
 }
 
 template <int n, int Dim>
-void sum_with_mass_matrix(Body<Dim>& body, int from, StepBooks<Dim>& books) {
-  for_each_chunk(body, body.assembly.chunk(), books, [&](int first, int last, StepBooks<Dim>&) {
-    clear_places(body, first, body.buffers.momentum, transfer::place_size<n>);
-    const transfer::Motion<Dim>* motion = body.buffers.motion.data();
-    const double* matrices = body.buffers.mass_matrix.data();
-    const int *places = body.assembly.places_of(0), *nodes = body.assembly.nodes_of(0), row = body.assembly.row();
+void sum_with_mass_matrix(Body<Dim>& body, VelocityField<Dim>& field, int from, StepBooks<Dim>& books) {
+  for_each_chunk(field, field.assembly.chunk(), books, [&](int first, int last, StepBooks<Dim>&) {
+    clear_places(field, first, field.buffers.momentum, transfer::place_size<n>);
+    const transfer::Motion<Dim>* motion = field.nodes.motion.data();
+    const double* matrices = field.buffers.mass_matrix.data();
+    const int *places = field.assembly.places_of(0), *nodes = field.assembly.nodes_of(0), row = field.assembly.row();
     const std::size_t size = mass_matrix_row(row);
-    double* momentum = body.buffers.momentum.data();
-    for_each_element(body, first, last, [&]<class Basis>(Basis, int slot, int e) {
+    double* momentum = field.buffers.momentum.data();
+    for_each_element(body, field, first, last, [&]<class Basis>(Basis, int slot, int e) {
       if constexpr (transfer::keeps_mass_matrix<Basis>) {
         const double* M = matrices + slot * size;
         const int* k_i = nodes + slot * row;
@@ -350,29 +354,31 @@ void sum_with_mass_matrix(Body<Dim>& body, int from, StepBooks<Dim>& books) {
           transfer::add_products<Basis>(M, w, places + slot * row, momentum);
         }
       } else {
-        add_momentum_of_points<Basis, n>(body, slot, e, from);
+        add_momentum_of_points<Basis, n>(body, field, slot, e, from);
       }
     });
   });
 }
 
 template <int Dim>
-void strain_stress_and_motion(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
+void strain_stress_and_motion(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings,
+                              StepBooks<Dim>& books) {
+  const std::int64_t changed_before = books.changed_element;
   const auto& scheme = settings.scheme;
   const MoveRules rules{{scheme.kept(dt), scheme.middle, scheme.affine, dt},
                         scheme.lateness,
                         scheme.mends_massless && books.massless_nodes > 0};
-  for_each_chunk(body, element_chunk, books, [&](int first, int last, StepBooks<Dim>& part) {
-    Strains<Dim>& strains = body.buffers.strains[exec::thread_number()];
-    for (auto& block : body.blocks) {
+  for_each_chunk(field, element_chunk, books, [&](int first, int last, StepBooks<Dim>& part) {
+    Strains<Dim>& strains = field.buffers.strains[exec::thread_number()];
+    for (auto& block : field.blocks) {
       exec::GapSharing<Dim> gaps(block, strains, body.mesh->axisymmetric ? 3 : Dim, dt);
       auto* sharing = scheme.shares_gaps && gaps.active() ? &gaps : nullptr;
       {
         const Stopwatch<Dim> watch(settings.profile, part, Phase::strain_and_move);
         if (rules.motion.flip == 1 || scheme.two_terms) {
-          strain_and_move<false>(body, block, first, last, rules, strains, sharing, part);
+          strain_and_move<false>(body, field, block, first, last, rules, strains, sharing, part);
         } else {
-          strain_and_move<true>(body, block, first, last, rules, strains, sharing, part);
+          strain_and_move<true>(body, field, block, first, last, rules, strains, sharing, part);
         }
       }
       const Stopwatch<Dim> watch(settings.profile, part, Phase::stress);
@@ -382,20 +388,27 @@ void strain_stress_and_motion(Body<Dim>& body, double dt, const StepSettings& se
       if (sharing) part.stress.work -= sharing->work();
     }
   });
-  if (scheme::books_pic_at_nodes(scheme, dt)) {
+  field.changed_element = books.changed_element - changed_before;
+}
+
+template <int Dim>
+void close_books(double dt, const StepSettings& settings, StepBooks<Dim>& books) {
+  if (scheme::books_pic_at_nodes(settings.scheme, dt)) {
     books.dissipation_pic += books.kinetic_energy_before - books.kinetic_energy;
   }
   books.work_stress = books.stress.work;
   books.dissipation_waves = books.stress.damping;
 }
 
-template void map_points_to_elements<2>(Body<2>&, const StepSettings&, StepBooks<2>&);
-template void map_points_to_elements<3>(Body<3>&, const StepSettings&, StepBooks<3>&);
-template void sum_with_mass_matrix<2>(Body<2>&, int, StepBooks<2>&);
-template void sum_with_mass_matrix<4>(Body<2>&, int, StepBooks<2>&);
-template void sum_with_mass_matrix<3>(Body<3>&, int, StepBooks<3>&);
-template void sum_with_mass_matrix<6>(Body<3>&, int, StepBooks<3>&);
-template void strain_stress_and_motion<2>(Body<2>&, double, const StepSettings&, StepBooks<2>&);
-template void strain_stress_and_motion<3>(Body<3>&, double, const StepSettings&, StepBooks<3>&);
+template void map_points_to_elements<2>(Body<2>&, VelocityField<2>&, const StepSettings&, StepBooks<2>&);
+template void map_points_to_elements<3>(Body<3>&, VelocityField<3>&, const StepSettings&, StepBooks<3>&);
+template void sum_with_mass_matrix<2>(Body<2>&, VelocityField<2>&, int, StepBooks<2>&);
+template void sum_with_mass_matrix<4>(Body<2>&, VelocityField<2>&, int, StepBooks<2>&);
+template void sum_with_mass_matrix<3>(Body<3>&, VelocityField<3>&, int, StepBooks<3>&);
+template void sum_with_mass_matrix<6>(Body<3>&, VelocityField<3>&, int, StepBooks<3>&);
+template void close_books<2>(double, const StepSettings&, StepBooks<2>&);
+template void close_books<3>(double, const StepSettings&, StepBooks<3>&);
+template void strain_stress_and_motion<2>(Body<2>&, VelocityField<2>&, double, const StepSettings&, StepBooks<2>&);
+template void strain_stress_and_motion<3>(Body<3>&, VelocityField<3>&, double, const StepSettings&, StepBooks<3>&);
 
 }  // namespace scarp::step

@@ -8,7 +8,7 @@ namespace scarp {
 
 /// Energies [kJ; per metre of thickness in plane strain, per radian in a body of revolution] of a step or a run.
 struct Energies {
-  double work_gravity = 0, work_stress = 0, work_release = 0, work_boundary = 0;
+  double work_gravity = 0, work_stress = 0, work_release = 0, work_boundary = 0, work_interaction = 0;
   double dissipation_damping = 0, dissipation_friction = 0, dissipation_pic = 0, dissipation_waves = 0;
   double dissipation_absorbing = 0, stored_sides = 0;
   double energy_reweighted = 0;
@@ -18,7 +18,7 @@ struct Energies {
 
 struct EnergyTerm {
   /// Which runs have use for a term, and a column for it in history.csv.
-  enum class Use { always, release, absorbing };
+  enum class Use { always, release, absorbing, interaction };
 
   const char* key;  ///< column of history.csv
   double Energies::*sum;
@@ -35,6 +35,8 @@ inline constexpr std::array energy_terms{
                "work of the forces that hold the initial imbalance back; where a stage has `release`"},
     EnergyTerm{"work_boundary", &Energies::work_boundary, 1, EnergyTerm::Use::absorbing,
                "work of the forces with which absorbing sides were held; where there are such sides"},
+    EnergyTerm{"work_interaction", &Energies::work_interaction, 1, EnergyTerm::Use::interaction,
+               "work of fields of velocity on each other; where a body has several"},
     EnergyTerm{"dissipation_damping", &Energies::dissipation_damping, -1, EnergyTerm::Use::always,
                "taken by local damping"},
     EnergyTerm{"dissipation_friction", &Energies::dissipation_friction, -1, EnergyTerm::Use::always,

@@ -14,14 +14,15 @@ namespace {
 
 /// f(basis, slot, element, its cell) for all active elements, in the chunks of the assembly.
 template <int Dim, class F>
-void for_each_element(Body<Dim>& body, StepBooks<Dim>& books, F&& f) {
-  exec::sum_over_chunks(
-      body.active.size(), body.assembly.chunk(), body.buffers.books, books, [&](int first, int last, StepBooks<Dim>&) {
-        clear_places(body, first, body.buffers.momentum, 1);
-        with_basis<Dim>(
-            *body.mesh, body.active.element.data(), first, last,
-            [&]<class Basis>(Basis basis, int slot, int e) { f(basis, slot, typename Basis::Cell(*body.mesh, e)); });
-      });
+void for_each_element(Body<Dim>& body, VelocityField<Dim>& field, StepBooks<Dim>& books, F&& f) {
+  exec::sum_over_chunks(field.active.size(), field.assembly.chunk(), field.buffers.books, books,
+                        [&](int first, int last, StepBooks<Dim>&) {
+                          clear_places(field, first, field.buffers.momentum, 1);
+                          with_basis<Dim>(*body.mesh, field.active.element.data(), first, last,
+                                          [&]<class Basis>(Basis basis, int slot, int e) {
+                                            f(basis, slot, typename Basis::Cell(*body.mesh, e));
+                                          });
+                        });
 }
 
 /// Ω̂ |B_i|² of an element, of its mean gradients.
@@ -38,14 +39,14 @@ void add_stiffness(const typename Basis::Cell& cell, double volume, const int* p
 
 /// The largest value of a nodal field at the points of an element.
 template <class Basis>
-double largest_at_points(const Body<Basis::dim>& body, const typename Basis::Cell& cell, int slot,
+double largest_at_points(const VelocityField<Basis::dim>& field, const typename Basis::Cell& cell, int slot,
                          const transfer::NodeRows<Basis>& rows) {
   using T = PointBatch<Basis::dim>;
-  const transfer::Field<Basis, 1, transfer::Rows::just> field(cell, rows);
+  const transfer::Field<Basis, 1, transfer::Rows::just> of_nodes(cell, rows);
   double largest = 0;
-  for (const auto& block : body.blocks) {
+  for (const auto& block : field.blocks) {
     for_each_batch_of_element<T>(points_of(block, slot), [&](const auto& p, int) {
-      const T value = field.at(transfer::local_coordinates<Basis>(cell, block.points, p)).value(0);
+      const T value = of_nodes.at(transfer::local_coordinates<Basis>(cell, block.points, p)).value(0);
       for (int l = 0; l < p.count(); ++l) largest = std::max(largest, value.get(static_cast<std::size_t>(l)));
     });
   }
@@ -55,33 +56,33 @@ double largest_at_points(const Body<Basis::dim>& body, const typename Basis::Cel
 }  // namespace
 
 template <int Dim>
-void bound_by_nodes(Body<Dim>& body, StepBooks<Dim>& books) {
-  auto& buffers = body.buffers;
+void bound_by_nodes(Body<Dim>& body, VelocityField<Dim>& field, StepBooks<Dim>& books) {
+  auto& buffers = field.buffers;
   buffers.bounds.age = 0;
-  for_each_element(body, books, [&]<class Basis>(Basis, int slot, const typename Basis::Cell& cell) {
-    add_stiffness<Basis>(cell, buffers.bounds.filled[slot], body.assembly.places_of(slot), buffers.momentum.data());
+  for_each_element(body, field, books, [&]<class Basis>(Basis, int slot, const typename Basis::Cell& cell) {
+    add_stiffness<Basis>(cell, buffers.bounds.filled[slot], field.assembly.places_of(slot), buffers.momentum.data());
   });
   exec::sum_over_chunks(
-      body.assembly.size(), node_chunk, buffers.books, books, [&](int first, int last, StepBooks<Dim>&) {
+      field.assembly.size(), node_chunk, buffers.books, books, [&](int first, int last, StepBooks<Dim>&) {
         for (int k = first; k < last; ++k) {
-          buffers.bounds.stiffness[k] = 0.5 * gathered<1>(body, k, buffers.momentum)[0] * buffers.node[k].per_mass;
+          buffers.bounds.stiffness[k] = 0.5 * gathered<1>(field, k, buffers.momentum)[0] * field.nodes.node[k].per_mass;
         }
       });
   exec::sum_over_chunks(
-      body.active.size(), element_chunk, buffers.books, books, [&](int first, int last, StepBooks<Dim>&) {
-        with_basis<Dim>(*body.mesh, body.active.element.data(), first, last, [&]<class Basis>(Basis, int slot, int e) {
+      field.active.size(), element_chunk, buffers.books, books, [&](int first, int last, StepBooks<Dim>&) {
+        with_basis<Dim>(*body.mesh, field.active.element.data(), first, last, [&]<class Basis>(Basis, int slot, int e) {
           if constexpr (is_simplex<Basis>) {
-            const int* k = body.assembly.nodes_of(slot);
+            const int* k = field.assembly.nodes_of(slot);
             transfer::NodeRows<Basis> rows;
             for (int i = 0; i < Basis::nodes; ++i) rows[i] = &buffers.bounds.stiffness[k[i]];
             const typename Basis::Cell cell(*body.mesh, e);
-            buffers.bounds.least_per_mass[slot] = largest_at_points<Basis>(body, cell, slot, rows);
+            buffers.bounds.least_per_mass[slot] = largest_at_points<Basis>(field, cell, slot, rows);
           }
         });
       });
 }
 
-template void bound_by_nodes<2>(Body<2>&, StepBooks<2>&);
-template void bound_by_nodes<3>(Body<3>&, StepBooks<3>&);
+template void bound_by_nodes<2>(Body<2>&, VelocityField<2>&, StepBooks<2>&);
+template void bound_by_nodes<3>(Body<3>&, VelocityField<3>&, StepBooks<3>&);
 
 }  // namespace scarp::step

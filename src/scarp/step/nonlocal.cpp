@@ -17,7 +17,7 @@ constexpr double m = 2;  ///< share of the average; the rest is the point's own
 template <int Dim>
 class Corners {
  public:
-  explicit Corners(const Body<Dim>& body) : mesh_(*body.mesh), active_(body.active) {
+  explicit Corners(const Body<Dim>& body, const VelocityField<Dim>& field) : mesh_(*body.mesh), active_(field.active) {
     if (!mesh_.grid) {
       size_ = mesh_.node_count();
       return;
@@ -112,9 +112,9 @@ void with_functions(const Mesh<Dim>& mesh, int e, F&& f) {
 
 /// f(first slot, last slot) for chunks of the active elements.
 template <int Dim, class F>
-void for_each_chunk(Body<Dim>& body, F&& f) {
+void for_each_chunk(VelocityField<Dim>& field, F&& f) {
   StepBooks<Dim> none;
-  exec::sum_over_chunks(body.active.size(), body.assembly.chunk(), body.buffers.books, none,
+  exec::sum_over_chunks(field.active.size(), field.assembly.chunk(), field.buffers.books, none,
                         [&](int first, int last, StepBooks<Dim>&) { f(first, last); });
 }
 
@@ -126,20 +126,20 @@ const Column& kappa_of(const Block<Dim>& block) {
 
 /// Where the local corner i of the element in a slot sums up.
 template <int Dim>
-std::size_t place_of(const Body<Dim>& body, int slot, int i) {
-  return 2 * static_cast<std::size_t>(body.mesh->grid ? (slot << Dim) + i : body.assembly.places_of(slot)[i]);
+std::size_t place_of(const Body<Dim>& body, const VelocityField<Dim>& field, int slot, int i) {
+  return 2 * static_cast<std::size_t>(body.mesh->grid ? (slot << Dim) + i : field.assembly.places_of(slot)[i]);
 }
 
 /// Σ N κ′ Ω and Σ N Ω of each element.
 template <int Dim>
-void sum_elements(Body<Dim>& body) {
-  Column& sums = body.averages.of_elements;
-  sums.assign(2 * (body.mesh->grid ? static_cast<std::size_t>(body.active.size()) << Dim : body.assembly.places()),
+void sum_elements(const Body<Dim>& body, VelocityField<Dim>& field) {
+  Column& sums = field.averages.of_elements;
+  sums.assign(2 * (body.mesh->grid ? static_cast<std::size_t>(field.active.size()) << Dim : field.assembly.places()),
               0.0);
-  for_each_chunk(body, [&](int first, int last) {
+  for_each_chunk(field, [&](int first, int last) {
     for (int slot = first; slot < last; ++slot) {
-      with_functions(*body.mesh, body.active.element[slot], [&](auto K, const auto& at) {
-        for (const auto& block : body.blocks) {
+      with_functions(*body.mesh, field.active.element[slot], [&](auto K, const auto& at) {
+        for (const auto& block : field.blocks) {
           if (!(block.length > 0)) continue;
           const double cap = kappa_c_of(block.model);
           const Column& kappa = kappa_of(block);
@@ -148,7 +148,7 @@ void sum_elements(Body<Dim>& body) {
             const auto N = at(block.points, p);
             const double volume = block.points.volume[p], strain = std::min(kappa[p], cap) * volume;
             for (int i = 0; i < K; ++i) {
-              double* to = sums.data() + place_of(body, slot, i);
+              double* to = sums.data() + place_of(body, field, slot, i);
               to[0] += N[i] * strain;
               to[1] += N[i] * volume;
             }
@@ -161,8 +161,8 @@ void sum_elements(Body<Dim>& body) {
 
 /// From elements to corners, in a fixed order.
 template <int Dim>
-void sum_corners(Body<Dim>& body, const Corners<Dim>& corners) {
-  auto& averages = body.averages;
+void sum_corners(const Body<Dim>& body, VelocityField<Dim>& field, const Corners<Dim>& corners) {
+  auto& averages = field.averages;
   const double* from = averages.of_elements.data();
   averages.sums.assign(2 * static_cast<std::size_t>(corners.size()), 0.0);
   const auto add = [&](int corner, std::size_t place) {
@@ -170,11 +170,11 @@ void sum_corners(Body<Dim>& body, const Corners<Dim>& corners) {
   };
   if (body.mesh->grid) {
     exec::for_each(corners.size(), [&](int c) {
-      corners.for_cells_around(c, [&](int slot, int i) { add(c, place_of(body, slot, i)); });
+      corners.for_cells_around(c, [&](int slot, int i) { add(c, place_of(body, field, slot, i)); });
     });
   } else {
-    exec::for_each(body.assembly.size(), [&](int k) {
-      body.assembly.gather(k, [&](int place) { add(body.assembly.node(k), 2 * static_cast<std::size_t>(place)); });
+    exec::for_each(field.assembly.size(), [&](int k) {
+      field.assembly.gather(k, [&](int place) { add(field.assembly.node(k), 2 * static_cast<std::size_t>(place)); });
     });
   }
 }
@@ -199,16 +199,17 @@ void smooth(Averages<Dim>& averages, const typename Averages<Dim>::OfLength& of,
 
 /// How fast κ̂ of the points of a block grows over the time until the next average.
 template <int Dim>
-void set_rates(Body<Dim>& body, Block<Dim>& block, const Corners<Dim>& corners, double time) {
+void set_rates(const Body<Dim>& body, VelocityField<Dim>& field, Block<Dim>& block, const Corners<Dim>& corners,
+               double time) {
   const double cap = kappa_c_of(block.model);
-  const double* averages = body.averages.smoothed.data();
+  const double* averages = field.averages.smoothed.data();
   const std::size_t columns = block.state.size();
   const Column &kappa = kappa_of(block), &kappa_hat = block.state[columns - 2];
   Column& rate = block.state[columns - 1];
-  for_each_chunk(body, [&](int first, int last) {
+  for_each_chunk(field, [&](int first, int last) {
     for (int slot = first; slot < last; ++slot) {
       if (block.begin[slot] == block.begin[slot + 1]) continue;
-      const int e = body.active.element[slot];
+      const int e = field.active.element[slot];
       with_functions(*body.mesh, e, [&](auto K, const auto& at) {
         std::array<double, K> of_corner;
         for (int i = 0; i < K; ++i) of_corner[i] = averages[2 * static_cast<std::size_t>(corners.of(e, i))];
@@ -228,9 +229,9 @@ void set_rates(Body<Dim>& body, Block<Dim>& block, const Corners<Dim>& corners, 
 
 /// The smoothing of each length that a block has, made once.
 template <int Dim>
-void prepare(Body<Dim>& body) {
-  auto& lengths = body.averages.lengths;
-  for (const auto& block : body.blocks) {
+void prepare(const Body<Dim>& body, VelocityField<Dim>& field) {
+  auto& lengths = field.averages.lengths;
+  for (const auto& block : field.blocks) {
     const auto same = [&block](const auto& of) { return of.length == block.length; };
     if (!(block.length > 0) || std::any_of(lengths.begin(), lengths.end(), same)) continue;
     if (body.mesh->grid) {
@@ -241,29 +242,43 @@ void prepare(Body<Dim>& body) {
   }
 }
 
-}  // namespace
-
+/// The averages of one field.
 template <int Dim>
-bool softens_over_length(const Body<Dim>& body) {
-  return std::any_of(body.blocks.begin(), body.blocks.end(), [](const auto& block) { return block.length > 0; });
+void average_softening(const Body<Dim>& body, VelocityField<Dim>& field, double dt) {
+  if (field.active.size() == 0) return;
+  auto& averages = field.averages;
+  if (++averages.steps < averages.every) return;
+  averages.steps = 0;
+  prepare(body, field);
+  const Corners<Dim> corners(body, field);
+  sum_elements(body, field);
+  sum_corners(body, field, corners);
+  for (const auto& of : averages.lengths) {
+    smooth(averages, of, corners);
+    for (auto& block : field.blocks) {
+      if (block.length == of.length) set_rates(body, field, block, corners, averages.every * dt);
+    }
+  }
 }
 
 template <int Dim>
+bool softens_over_length(const VelocityField<Dim>& field) {
+  return std::any_of(field.blocks.begin(), field.blocks.end(), [](const auto& block) { return block.length > 0; });
+}
+
+}  // namespace
+
+template <int Dim>
 void average_softening(Body<Dim>& body, double dt) {
-  if (body.active.size() == 0) return;
-  auto& averages = body.averages;
-  if (++averages.steps < averages.every) return;
-  averages.steps = 0;
-  prepare(body);
-  const Corners<Dim> corners(body);
-  sum_elements(body);
-  sum_corners(body, corners);
-  for (const auto& of : averages.lengths) {
-    smooth(averages, of, corners);
-    for (auto& block : body.blocks) {
-      if (block.length == of.length) set_rates(body, block, corners, averages.every * dt);
-    }
+  for (auto& field : body.fields) {
+    if (softens_over_length(field)) average_softening(body, field, dt);
   }
+}
+
+template <int Dim>
+bool softens_over_length(const Body<Dim>& body) {
+  return std::any_of(body.fields.begin(), body.fields.end(),
+                     [](const auto& field) { return softens_over_length(field); });
 }
 
 template bool softens_over_length<2>(const Body<2>&);

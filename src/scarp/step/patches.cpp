@@ -11,17 +11,17 @@ namespace {
 
 /// f(basis, slot, element, its Means) for the elements of F, in the chunks of the assembly.
 template <int Dim, class F>
-void for_each_simplex(Body<Dim>& body, StepBooks<Dim>& books, F&& f) {
-  exec::sum_over_chunks(body.active.size(), body.assembly.chunk(), body.buffers.books, books,
+void for_each_simplex(Body<Dim>& body, VelocityField<Dim>& field, StepBooks<Dim>& books, F&& f) {
+  exec::sum_over_chunks(field.active.size(), field.assembly.chunk(), field.buffers.books, books,
                         [&](int first, int last, StepBooks<Dim>&) {
                           const auto of_element = [&]<class Basis>(Basis basis, int slot, int e) {
                             if constexpr (is_simplex<Basis>) {
-                              if (!body.buffers.mean_dilatation[slot]) return;
+                              if (!field.buffers.mean_dilatation[slot]) return;
                               const typename Basis::Cell cell(*body.mesh, e);
                               f(basis, slot, e, transfer::Means<Basis>(cell));
                             }
                           };
-                          with_basis<Dim>(*body.mesh, body.active.element.data(), first, last, of_element);
+                          with_basis<Dim>(*body.mesh, field.active.element.data(), first, last, of_element);
                         });
 }
 
@@ -29,11 +29,12 @@ void for_each_simplex(Body<Dim>& body, StepBooks<Dim>& books, F&& f) {
 template <class Basis>
 void add_force(const transfer::Means<Basis>& means, double Vp, const int* place, double* nodes) {
   constexpr int Dim = Basis::dim;
+  using Sums = transfer::NodeSums<Dim>;
   double B[transfer::nodal_size<Basis>];
   const auto add = [&](const transfer::Nodal<Basis>& of_nodes, int j) {
     transfer::store_nodal<Basis>(of_nodes, B);
     for (int i = 0; i < Basis::nodes; ++i)
-      nodes[static_cast<std::size_t>(place[i]) * transfer::node_sums<Dim> + 1 + Dim + j] += Vp * B[i];
+      nodes[static_cast<std::size_t>(place[i]) * Sums::size + Sums::internal_force_at + j] += Vp * B[i];
   };
   for (int j = 0; j < Dim; ++j) add(means.gradient[j], j);
   if constexpr (is_axisymmetric<Basis>) add(means.hoop[0], 0);
@@ -42,28 +43,28 @@ void add_force(const transfer::Means<Basis>& means, double Vp, const int* place,
 }  // namespace
 
 template <int Dim>
-void add_mean_stresses(Body<Dim>& body, StepBooks<Dim>& books) {
-  auto& buffers = body.buffers;
-  for_each_simplex(body, books, [&]<class Basis>(Basis, int slot, int e, const transfer::Means<Basis>& means) {
-    const double Vp = buffers.patch_share[slot].V * mean_over_patch(body, e, &PatchShare::p);
-    add_force<Basis>(means, Vp, body.assembly.places_of(slot), buffers.sums.data());
+void add_mean_stresses(Body<Dim>& body, VelocityField<Dim>& field, StepBooks<Dim>& books) {
+  auto& buffers = field.buffers;
+  for_each_simplex(body, field, books, [&]<class Basis>(Basis, int slot, int e, const transfer::Means<Basis>& means) {
+    const double Vp = buffers.patch_share[slot].V * mean_over_patch(body, field, e, &PatchShare::p);
+    add_force<Basis>(means, Vp, field.assembly.places_of(slot), buffers.sums.data());
   });
 }
 
 template <int Dim>
-void find_dilations(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books) {
+void find_dilations(Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings, StepBooks<Dim>& books) {
   const bool mends = settings.scheme.mends_massless && books.massless_nodes > 0;
-  for_each_simplex(body, books, [&]<class Basis>(Basis, int slot, int, const transfer::Means<Basis>& means) {
-    auto motion = motion_of_nodes<Basis>(body, slot);
+  for_each_simplex(body, field, books, [&]<class Basis>(Basis, int slot, int, const transfer::Means<Basis>& means) {
+    auto motion = motion_of_nodes<Basis>(field, slot);
     transfer::Motion<Dim> mean_motion;
-    if (mends) mend_massless<Basis>(body, slot, motion, mean_motion);
-    body.buffers.patch_share[slot].theta = transfer::mean_dilation<Basis>(means, motion);
+    if (mends) mend_massless<Basis>(field, slot, motion, mean_motion);
+    field.buffers.patch_share[slot].theta = transfer::mean_dilation<Basis>(means, motion);
   });
 }
 
-template void add_mean_stresses<2>(Body<2>&, StepBooks<2>&);
-template void add_mean_stresses<3>(Body<3>&, StepBooks<3>&);
-template void find_dilations<2>(Body<2>&, const StepSettings&, StepBooks<2>&);
-template void find_dilations<3>(Body<3>&, const StepSettings&, StepBooks<3>&);
+template void add_mean_stresses<2>(Body<2>&, VelocityField<2>&, StepBooks<2>&);
+template void add_mean_stresses<3>(Body<3>&, VelocityField<3>&, StepBooks<3>&);
+template void find_dilations<2>(Body<2>&, VelocityField<2>&, const StepSettings&, StepBooks<2>&);
+template void find_dilations<3>(Body<3>&, VelocityField<3>&, const StepSettings&, StepBooks<3>&);
 
 }  // namespace scarp::step

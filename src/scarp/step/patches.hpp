@@ -21,12 +21,12 @@ bool uses_patches(const Body<Dim>& body, const StepSettings& settings) {
 
 /// (S x)_e for x = PatchShare::p or PatchShare::theta, of an element e of F. Summed up in the order of the elements.
 template <int Dim>
-double mean_over_patch(const Body<Dim>& body, int e, double PatchShare::*x) {
+double mean_over_patch(const Body<Dim>& body, const VelocityField<Dim>& field, int e, double PatchShare::*x) {
   double sum = 0, V = 0;
   for (const int other : body.patches.around(e)) {
-    const int slot = body.active.slot[other];
+    const int slot = field.active.slot[other];
     if (slot < 0) continue;
-    const PatchShare& share = body.buffers.patch_share[slot];
+    const PatchShare& share = field.buffers.patch_share[slot];
     sum += share.V * (share.*x);
     V += share.V;
   }
@@ -35,10 +35,10 @@ double mean_over_patch(const Body<Dim>& body, int e, double PatchShare::*x) {
 
 /// Step 1, end: V_e (S p)_e B̄_i to the sums of the nodes, when every element has its p_e.
 template <int Dim>
-void add_mean_stresses(Body<Dim>& body, StepBooks<Dim>& books);
+void add_mean_stresses(Body<Dim>& body, VelocityField<Dim>& field, StepBooks<Dim>& books);
 
 /// Step 6, start: θ_e, from the displacements of the nodes.
 template <int Dim>
-void find_dilations(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books);
+void find_dilations(Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings, StepBooks<Dim>& books);
 
 }  // namespace scarp::step

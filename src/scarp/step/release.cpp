@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scarp/step/phases.hpp"
+#include "scarp/step/node_forces.hpp"
 #include "scarp/transfer/transfer.hpp"
 
 namespace scarp {
@@ -35,25 +35,25 @@ void take_reaction(const Conditions<Dim>& conditions, int n, Vec<Dim>& F) {
 template <int Dim>
 void hold_imbalance(Body<Dim>& body, const StepSettings& settings) {
   StepBooks<Dim> books;
-  prepare_threads(body);
-  step::map_points_to_elements(body, settings, books);
-  auto& release = body.release;
-  release.imbalance.assign(body.mesh->node_count(), {});
-  release.mass.assign(body.mesh->node_count(), 0.0);
-  for (int k = 0; k < body.assembly.size(); ++k) {
-    const auto sum = step::gathered<transfer::node_sums<Dim>>(body, k, body.buffers.sums);  // m, p, F_int
-    if (sum[0] < body.least_mass) continue;
-    const int n = body.assembly.node(k);
-    Vec<Dim>& F = release.imbalance[n];
-    for (int j = 0; j < Dim; ++j) {
-      F[j] = sum[0] * body.gravity[j] - sum[1 + Dim + j];
-      if (body.sides.holds(n)) F[j] += body.sides.force(n, j, sum[0]);
+  for (auto& field : body.fields) {
+    prepare_threads(field);
+    step::map_points_to_elements(body, field, settings, books);
+    auto& release = field.outside.release;
+    release.imbalance.assign(body.mesh->node_count(), {});
+    release.mass.assign(body.mesh->node_count(), 0.0);
+    release.share = 0;  // what is held back now is no part of what is to be
+    for (int k = 0; k < field.assembly.size(); ++k) {
+      const auto sums = step::gathered_sums(field, k);
+      if (sums.mass() < field.least_mass) continue;
+      const int n = field.assembly.node(k);
+      Vec<Dim>& F = release.imbalance[n];
+      F = step::driving_force<Dim>(body, field, n, sums);
+      take_reaction<Dim>(body.conditions, n, F);
+      for (double& component : F) component /= sums.mass();
+      release.mass[n] = sums.mass();
     }
-    take_reaction<Dim>(body.conditions, n, F);
-    for (double& component : F) component /= sum[0];
-    release.mass[n] = sum[0];
+    release.share = 1;
   }
-  release.share = 1;
 }
 
 template void hold_imbalance<2>(Body<2>&, const StepSettings&);

@@ -16,15 +16,16 @@ void note(Buffers<Dim>& buffers, int e) {
 }
 
 template <int Dim>
-void note_around(Body<Dim>& body, int e) {
-  for (const int other : body.mesh->elements_around(e)) note(body.buffers, other);
+void note_around(Body<Dim>& body, VelocityField<Dim>& field, int e) {
+  for (const int other : body.mesh->elements_around(e)) note(field.buffers, other);
 }
 
 /// w of an active element, for points of this volume.
 template <class Basis>
-double weight(const Body<Basis::dim>& body, const StepSettings& settings, int slot, int e, double volume) {
+double weight(const Body<Basis::dim>& body, const VelocityField<Basis::dim>& field, const StepSettings& settings,
+              int slot, int e, double volume) {
   if constexpr (Basis::corrects) {
-    if (settings.quadrature == Quadrature::corrected && body.buffers.inside[slot]) {
+    if (settings.quadrature == Quadrature::corrected && field.buffers.inside[slot]) {
       const transfer::Means<Basis> mean(typename Basis::Cell(*body.mesh, e));
       if (transfer::fills(volume, mean)) return mean.V / volume;
     }
@@ -35,51 +36,52 @@ double weight(const Body<Basis::dim>& body, const StepSettings& settings, int sl
 }  // namespace
 
 template <int Dim>
-void find_changed_elements(Body<Dim>& body) {
-  auto& buffers = body.buffers;
+void find_changed_elements(Body<Dim>& body, VelocityField<Dim>& field) {
+  auto& buffers = field.buffers;
   for (const int e : buffers.changed) buffers.is_changed[e] = 0;
   buffers.changed.clear();
-  for (int slot = 0; slot < body.active.size(); ++slot) {
+  for (int slot = 0; slot < field.active.size(); ++slot) {
     if (!buffers.left[slot]) continue;
     buffers.left[slot] = 0;
-    const int e = body.active.element[slot];
+    const int e = field.active.element[slot];
     note(buffers, e);
     bool emptied = true;
-    for (const auto& block : body.blocks) {
+    for (const auto& block : field.blocks) {
       const auto range = points_of(block, slot);
       for (int k = 0; k < range.count; ++k) {
         const int now = block.points.element[range.order[k]];
         if (now == e) emptied = false;
         if (now == e || now < 0) continue;
         note(buffers, now);
-        if (body.active.slot[now] < 0) note_around(body, now);
+        if (field.active.slot[now] < 0) note_around(body, field, now);
       }
     }
-    if (emptied) note_around(body, e);
+    if (emptied) note_around(body, field, e);
   }
 }
 
 template <int Dim>
-double energy_of_changed_elements(const Body<Dim>& body, const StepSettings& settings) {
+double energy_of_changed_elements(const Body<Dim>& body, const VelocityField<Dim>& field,
+                                  const StepSettings& settings) {
   double energy = 0;
-  const auto& changed = body.buffers.changed;
+  const auto& changed = field.buffers.changed;
   with_basis<Dim>(*body.mesh, changed.data(), 0, static_cast<int>(changed.size()), [&]<class Basis>(Basis, int, int e) {
-    const int slot = body.active.slot[e];
+    const int slot = field.active.slot[e];
     if (slot < 0) return;
     double volume = 0, of_points = 0;
-    for (const auto& block : body.blocks) {
+    for (const auto& block : field.blocks) {
       const auto range = points_of(block, slot);
       for (int k = 0; k < range.count; ++k) volume += block.points.volume[range.order[k]];
       of_points += exec::elastic_energy(block, range);
     }
-    energy += weight<Basis>(body, settings, slot, e, volume) * of_points;
+    energy += weight<Basis>(body, field, settings, slot, e, volume) * of_points;
   });
   return energy;
 }
 
-template void find_changed_elements<2>(Body<2>&);
-template void find_changed_elements<3>(Body<3>&);
-template double energy_of_changed_elements<2>(const Body<2>&, const StepSettings&);
-template double energy_of_changed_elements<3>(const Body<3>&, const StepSettings&);
+template void find_changed_elements<2>(Body<2>&, VelocityField<2>&);
+template void find_changed_elements<3>(Body<3>&, VelocityField<3>&);
+template double energy_of_changed_elements<2>(const Body<2>&, const VelocityField<2>&, const StepSettings&);
+template double energy_of_changed_elements<3>(const Body<3>&, const VelocityField<3>&, const StepSettings&);
 
 }  // namespace scarp::step

@@ -13,10 +13,10 @@ namespace scarp::step {
 /// Notes the elements whose quadrature will change, after points have got new elements and before they are in their
 /// order.
 template <int Dim>
-void find_changed_elements(Body<Dim>& body);
+void find_changed_elements(Body<Dim>& body, VelocityField<Dim>& field);
 
 /// Energy stored in these elements [kJ], by the quadrature of the points that are in them by the present order.
 template <int Dim>
-double energy_of_changed_elements(const Body<Dim>& body, const StepSettings& settings);
+double energy_of_changed_elements(const Body<Dim>& body, const VelocityField<Dim>& field, const StepSettings& settings);
 
 }  // namespace scarp::step

@@ -80,9 +80,9 @@ struct Content {
 };
 
 template <int Dim>
-ZeroPages<Content> contents(const Body<Dim>& body) {
+ZeroPages<Content> contents(const Body<Dim>& body, const VelocityField<Dim>& field) {
   ZeroPages<Content> of_element(body.mesh->element_count());
-  for (const auto& block : body.blocks) {
+  for (const auto& block : field.blocks) {
     const auto& points = block.points;
     for (int i = 0; i < block.size(); ++i) {
       auto& its = of_element[points.element[i]];
@@ -148,11 +148,11 @@ double node_area(const Mesh<Dim>& mesh, const std::vector<int>& nodes, std::size
 
 /// The longest side of the box around all points [m].
 template <int Dim>
-double larger_side(const Body<Dim>& body) {
+double larger_side(const VelocityField<Dim>& field) {
   double longest = 0;
   for (int j = 0; j < Dim; ++j) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const auto& block : body.blocks) {
+    for (const auto& block : field.blocks) {
       for (const double x : block.points.x[j]) {
         low = std::min(low, x);
         high = std::max(high, x);
@@ -165,10 +165,11 @@ double larger_side(const Body<Dim>& body) {
 
 /// δ of a side, as given or as the larger side of the soil.
 template <int Dim>
-double thickness_of(const Body<Dim>& body, const AbsorbingSide& side, const std::vector<Face<Dim>>& faces) {
+double thickness_of(const Body<Dim>& body, const VelocityField<Dim>& field, const AbsorbingSide& side,
+                    const std::vector<Face<Dim>>& faces) {
   double h = 0;
   for (const auto& face : faces) h = std::max(h, body.mesh->size_of(face.element));
-  if (!side.thickness) return std::max(larger_side(body), 5 * h);
+  if (!side.thickness) return std::max(larger_side(field), 5 * h);
   const double thickness = *side.thickness;
   if (thickness == 0 || thickness >= 5 * h) return thickness;
   throw InputError(
@@ -194,15 +195,15 @@ void refuse_walls(const Body<Dim>& body, const std::vector<Face<Dim>>& faces) {
 }  // namespace
 
 template <int Dim>
-Sides<Dim> soil_beyond(const Body<Dim>& body, const AbsorbingSide& side) {
+Sides<Dim> soil_beyond(const Body<Dim>& body, const VelocityField<Dim>& field, const AbsorbingSide& side) {
   const auto& mesh = *body.mesh;
   if (mesh.grid && mesh.grid->functions != GridFunctions::linear)
     throw InputError("absorbing sides are there for linear shape functions only", "GIMP or B-splines",
                      "choose shape = \"linear\" in [method]");
   const auto faces = faces_on(mesh, side.nodes);
   refuse_walls(body, faces);
-  const double thickness = thickness_of(body, side, faces);
-  const auto content = contents(body);
+  const double thickness = thickness_of(body, field, side, faces);
+  const auto content = contents(body, field);
   Sides<Dim> sides;
   sides.of_node.resize(mesh.node_count());
   for (const auto& face : faces) {
@@ -236,42 +237,56 @@ Sides<Dim> soil_beyond(const Body<Dim>& body, const AbsorbingSide& side) {
   return sides;
 }
 
+namespace {
+
+/// Puts what is beyond the side in the place of the conditions that are to let go of its nodes, and lists these.
 template <int Dim>
-void open_side(Body<Dim>& body, const StepSettings& settings, const AbsorbingSide& side,
-               const Conditions<Dim>& others) {
-  const auto beyond = soil_beyond(body, side);
-  StepBooks<Dim> books;
-  prepare_threads(body);
-  step::map_points_to_elements(body, settings, books);
-  auto& sides = body.sides;
+void take_over(const Body<Dim>& body, VelocityField<Dim>& field, const Sides<Dim>& beyond,
+               const Conditions<Dim>& others, std::vector<int>& taken) {
+  auto& sides = field.outside.sides;
   if (!sides.active()) sides.of_node.resize(body.mesh->node_count());
-  for (int k = 0; k < body.assembly.size(); ++k) {
-    const int n = body.assembly.node(k);
+  for (int k = 0; k < field.assembly.size(); ++k) {
+    const int n = field.assembly.node(k);
     if (!beyond.holds(n)) continue;
-    const auto sum = step::gathered<transfer::node_sums<Dim>>(body, k, body.buffers.sums);  // m, p, F_int
-    if (sum[0] < body.least_mass) continue;
-    const bool fresh = sides.of_node[n] < 0;
-    if (fresh) {
+    const auto sums = step::gathered_sums(field, k);
+    if (sums.mass() < field.least_mass) continue;
+    if (sides.of_node[n] < 0) {
       sides.of_node.set(n, static_cast<int>(sides.node.size()));
       sides.node.emplace_back();
     }
     auto& node = sides.node[sides.of_node[n]];
     const auto& its = beyond.node[beyond.of_node[n]];
-    node.mass = sum[0];
+    node.mass = sums.mass();
     for (int j = 0; j < Dim; ++j) {
       node.C[j] += its.C[j];
       node.C_soil[j] += its.C_soil[j];
       node.k[j] += its.k[j];
       const bool let_go = (body.conditions.fixed[n] & ~others.fixed[n] & (1u << j)) != 0;
-      if (let_go) node.R[j] = sum[1 + Dim + j] - sum[0] * body.gravity[j];
+      if (let_go) node.R[j] = sums.internal_force(j) - sums.mass() * body.gravity[j];
     }
     node.find_gamma();
-    body.conditions.fixed[n] &= others.fixed[n];
+    taken.push_back(n);
   }
 }
 
-template Sides<2> soil_beyond<2>(const Body<2>&, const AbsorbingSide&);
-template Sides<3> soil_beyond<3>(const Body<3>&, const AbsorbingSide&);
+}  // namespace
+
+template <int Dim>
+void open_side(Body<Dim>& body, const StepSettings& settings, const AbsorbingSide& side,
+               const Conditions<Dim>& others) {
+  std::vector<int> taken;
+  for (auto& field : body.fields) {
+    const auto beyond = soil_beyond(body, field, side);
+    StepBooks<Dim> books;
+    prepare_threads(field);
+    step::map_points_to_elements(body, field, settings, books);
+    take_over(body, field, beyond, others, taken);
+  }
+  for (const int n : taken) body.conditions.fixed[n] &= others.fixed[n];
+}
+
+template Sides<2> soil_beyond<2>(const Body<2>&, const VelocityField<2>&, const AbsorbingSide&);
+template Sides<3> soil_beyond<3>(const Body<3>&, const VelocityField<3>&, const AbsorbingSide&);
 template void open_side<2>(Body<2>&, const StepSettings&, const AbsorbingSide&, const Conditions<2>&);
 template void open_side<3>(Body<3>&, const StepSettings&, const AbsorbingSide&, const Conditions<3>&);
 

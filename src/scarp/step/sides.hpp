@@ -124,14 +124,16 @@ struct AbsorbingSide {
 
 template <int Dim>
 struct Body;
+template <int Dim>
+struct VelocityField;
 struct StepSettings;
 
-/// C, C_soil and k of the nodes of a side that hold soil, R and u zero, for the present soil: from the faces of
-/// elements on the side, lumped, times the filled part of the elements. Throws InputError where nodes do not lie on
+/// C, C_soil and k of the nodes of a side that hold soil of a field, R and u zero, for the present soil: from the faces
+/// of elements on the side, lumped, times the filled part of the elements. Throws InputError where nodes do not lie on
 /// flat sides of the mesh across an axis, where δ is below five elements, and where the law does not tell its shear
 /// modulus, and where a wall with friction lies on the side.
 template <int Dim>
-Sides<Dim> soil_beyond(const Body<Dim>& body, const AbsorbingSide& side);
+Sides<Dim> soil_beyond(const Body<Dim>& body, const VelocityField<Dim>& field, const AbsorbingSide& side);
 
 /// Lets the nodes of a side go that hold soil: from now on only `others` are imposed on them, and what stands for the
 /// soil beyond, which begins with the force that held them.

@@ -35,46 +35,65 @@ void remove_lost(Block<Dim>& block, StepBooks<Dim>& books) {
 }
 
 template <int Dim>
-[[noreturn]] void refuse_to_lose(const Body<Dim>& body, const Block<Dim>& block, int i) {
+[[noreturn]] void refuse_to_lose(const VelocityField<Dim>& field, const Block<Dim>& block, int i) {
   const auto& points = block.points;
   Vec<Dim> x, v;
   for (int j = 0; j < Dim; ++j) {
     x[j] = points.x[j][i];
     v[j] = points.v[j][i];
   }
-  throw RunError(
-      fmt::format("point {} of region \"{}\" has left the mesh", points.id[i], block.name),
-      fmt::format("({:.6g}), with velocity ({:.4g})", fmt::join(x, ", "), fmt::join(v, ", ")),
-      fmt::format("extend the mesh{}, or let such points be removed with leaving = \"remove\" in [method]",
-                  body.sides.active() ? ", or where an absorbing side gave way take a smaller thickness or a larger "
-                                        "impedance for it"
-                                      : ""));
+  throw RunError(fmt::format("point {} of region \"{}\" has left the mesh", points.id[i], block.name),
+                 fmt::format("({:.6g}), with velocity ({:.4g})", fmt::join(x, ", "), fmt::join(v, ", ")),
+                 fmt::format("extend the mesh{}, or let such points be removed with leaving = \"remove\" in [method]",
+                             field.outside.sides.active()
+                                 ? ", or where an absorbing side gave way take a smaller thickness or a larger "
+                                   "impedance for it"
+                                 : ""));
 }
 
-/// Step 11, end: points in the order of their new elements; their arrays are put in order when it pays.
+/// The points of a field that have left the mesh.
+template <int Dim>
+void take_leave(VelocityField<Dim>& field, const StepSettings& settings, StepBooks<Dim>& books) {
+  for (auto& block : field.blocks) {
+    const auto& element = block.points.element;
+    const auto lost = std::find(element.begin(), element.end(), -1);
+    if (lost == element.end()) continue;
+    if (!settings.remove_leaving) refuse_to_lose(field, block, static_cast<int>(lost - element.begin()));
+    remove_lost(block, books);
+  }
+}
+
+/// Points in the order of their new elements; their arrays are put in order when it pays.
+template <int Dim>
+void order_points(const Body<Dim>& body, VelocityField<Dim>& field) {
+  reorder(body, field);
+  // Sweeps by element reach out of order for these points; a tenth of them is where putting all in order again pays.
+  field.out_of_place += field.changed_element;
+  if (10 * field.out_of_place > field.point_count()) {
+    exec::arrange_in_order(field.blocks);
+    field.out_of_place = 0;
+  }
+}
+
+/// Step 11, end: the points of all fields in their new elements.
 template <int Dim>
 void order_points(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books) {
   if (books.changed_element == 0) return;
-  step::find_changed_elements(body);
-  const double stored = step::energy_of_changed_elements(body, settings);
+  const auto stored = [&] {
+    double energy = 0;
+    for (const auto& field : body.fields) energy += step::energy_of_changed_elements(body, field, settings);
+    return energy;
+  };
+  for (auto& field : body.fields) step::find_changed_elements(body, field);
+  const double before = stored();
   if (books.left_mesh > 0) {
-    for (auto& block : body.blocks) {
-      const auto& element = block.points.element;
-      const auto lost = std::find(element.begin(), element.end(), -1);
-      if (lost == element.end()) continue;
-      if (!settings.remove_leaving) refuse_to_lose(body, block, static_cast<int>(lost - element.begin()));
-      remove_lost(block, books);
-    }
+    for (auto& field : body.fields) take_leave(field, settings, books);
     book_motion(body, books);
   }
-  reorder(body);
-  books.energy_reweighted = step::energy_of_changed_elements(body, settings) - stored;
-  // Sweeps by element reach out of order for these points; a tenth of them is where putting all in order again pays.
-  body.out_of_place += books.changed_element;
-  if (10 * body.out_of_place > body.point_count()) {
-    exec::arrange_in_order(body.blocks);
-    body.out_of_place = 0;
+  for (auto& field : body.fields) {
+    if (field.changed_element > 0) order_points(body, field);
   }
+  books.energy_reweighted = stored() - before;
 }
 
 }  // namespace
@@ -83,7 +102,7 @@ template <int Dim>
 void book_motion(const Body<Dim>& body, StepBooks<Dim>& books) {
   StepBooks<Dim> total;
   std::vector<StepBooks<Dim>> partial;
-  for (const auto& block : body.blocks) {
+  for (const auto& block : body.blocks()) {
     const auto& points = block.points;
     exec::sum_over_chunks(points.size(), 1024, partial, total, [&](int first, int last, StepBooks<Dim>& part) {
       double fastest2 = 0;
@@ -119,31 +138,44 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
     const Stopwatch<Dim> watch(settings.profile, books, phase);
     f();
   };
+  const auto each = [&](Phase phase, auto&& f) {
+    timed(phase, [&] {
+      for (auto& field : body.fields) f(field);
+    });
+  };
+  using Field = VelocityField<Dim>;
+  using P = Phase;
   const Scheme& scheme = settings.scheme;
-  prepare_threads(body);
-  timed(Phase::points_to_nodes, [&] { step::map_points_to_elements(body, settings, books); });  // 1, eqs 1–4
-  timed(Phase::nodes, [&] { step::accelerate_nodes(body, dt, settings, books); });              // 2 and 3, eq. 5
+  for (auto& field : body.fields) prepare_threads(field);
+  each(P::points_to_nodes, [&](Field& f) { step::map_points_to_elements(body, f, settings, books); });  // 1, eqs 1–4
+  each(P::nodes, [&](Field& f) { step::accelerate_nodes(body, f, dt, settings, books); });              // 2, 3, eq. 5
+  if (!body.interactions.empty()) timed(P::nodes, [&] { step::interact(body, dt, settings); });         // 3, end
   if (scheme.two_terms) {
-    timed(Phase::velocities, [&] { step::sum_with_mass_matrix<2 * Dim>(body, 0, books); });
-    timed(Phase::nodes, [&] { step::filter_changes(body, dt, settings, books); });           // 4: c = P c
-    timed(Phase::velocities, [&] { step::sum_with_mass_matrix<2 * Dim>(body, 0, books); });  // 4 and 5, eqs 6 and 7
+    each(P::velocities, [&](Field& f) { step::sum_with_mass_matrix<2 * Dim>(body, f, 0, books); });
+    each(P::nodes, [&](Field& f) { step::filter_changes(f, dt, settings, books); });                 // 4: c = P c
+    each(P::velocities, [&](Field& f) { step::sum_with_mass_matrix<2 * Dim>(body, f, 0, books); });  // 4, 5, eqs 6, 7
   } else {
-    timed(Phase::velocities, [&] { step::sum_with_mass_matrix<Dim>(body, 0, books); });  // 4 and 5, eqs 6 and 7
+    each(P::velocities, [&](Field& f) { step::sum_with_mass_matrix<Dim>(body, f, 0, books); });  // 4, 5, eqs 6, 7
   }
-  timed(Phase::nodes, [&] { step::velocities_of_nodes(body, dt, settings, books); });  // 5, eq. 8
+  each(P::nodes, [&](Field& f) { step::velocities_of_nodes(body, f, dt, settings, books); });  // 5, eq. 8
   if (scheme.filters_motion()) {
-    timed(Phase::velocities, [&] { step::sum_with_mass_matrix<2 * Dim>(body, Dim, books); });
-    timed(Phase::nodes, [&] { step::filter_displacements(body, settings, books); });  // 5: du = P v dt
+    each(P::velocities, [&](Field& f) { step::sum_with_mass_matrix<2 * Dim>(body, f, Dim, books); });
+    each(P::nodes, [&](Field& f) { step::filter_displacements(body, f, settings, books); });  // 5: du = P v dt
   }
   if (step::uses_patches(body, settings)) {
-    timed(Phase::velocities, [&] { step::find_dilations(body, settings, books); });
+    each(P::velocities, [&](Field& f) { step::find_dilations(body, f, settings, books); });
   }
-  if (step::bounds_by_nodes(body, scheme) && step::is_due(body.buffers.bounds)) {
-    timed(Phase::velocities, [&] { step::bound_by_nodes(body, books); });
+  if (step::bounds_by_nodes(body, scheme)) {
+    each(P::velocities, [&](Field& f) {
+      if (step::is_due(f.buffers.bounds)) step::bound_by_nodes(body, f, books);
+    });
   }
-  step::strain_stress_and_motion(body, dt, settings, books);          // 4, 6 to 11, eqs 6, 9–19 and section 3
-  timed(Phase::order, [&] { order_points(body, settings, books); });  // 11
-  if (step::softens_over_length(body)) timed(Phase::averages, [&] { step::average_softening(body, dt); });
+  for (auto& f : body.fields) {
+    step::strain_stress_and_motion(body, f, dt, settings, books);  // 4, 6 to 11, eqs 6, 9–19 and section 3
+  }
+  step::close_books(dt, settings, books);
+  timed(P::order, [&] { order_points(body, settings, books); });  // 11
+  if (step::softens_over_length(body)) timed(P::averages, [&] { step::average_softening(body, dt); });
   return books;
 }
 
@@ -151,28 +183,30 @@ namespace {
 
 /// What bounds the time step by nodes, of points as they are.
 template <int Dim>
-void find_bound_by_nodes(Body<Dim>& body, const Scheme& scheme) {
+void find_bound_by_nodes(Body<Dim>& body, VelocityField<Dim>& field, const Scheme& scheme) {
   StepBooks<Dim> unused;
   StepSettings settings;
   settings.scheme = scheme;
-  step::map_points_to_elements(body, settings, unused);
-  for (int k = 0; k < body.assembly.size(); ++k) {
-    const double m = step::gathered<transfer::node_sums<Dim>>(body, k, body.buffers.sums)[0];
-    body.buffers.node[k].per_mass = m < body.least_mass ? 0 : 1 / m;
+  step::map_points_to_elements(body, field, settings, unused);
+  for (int k = 0; k < field.assembly.size(); ++k) {
+    const double m = step::gathered_sums(field, k).mass();
+    field.nodes.node[k].per_mass = m < field.least_mass ? 0 : 1 / m;
   }
-  step::bound_by_nodes(body, unused);
+  step::bound_by_nodes(body, field, unused);
 }
 
 }  // namespace
 
 template <int Dim>
 double critical_time_step(Body<Dim>& body, const Scheme& scheme, double local_damping) {
-  if (step::bounds_by_nodes(body, scheme)) find_bound_by_nodes(body, scheme);
   double dt = std::numeric_limits<double>::infinity();
-  for (const auto& block : body.blocks) {
-    dt = std::min(dt, exec::critical_time_step(block, *body.mesh, body.active, body.buffers.weight,
-                                               body.buffers.bounds.least_per_mass,
-                                               scheme::waves(scheme, is_elastic(block.model), local_damping)));
+  for (auto& field : body.fields) {
+    if (step::bounds_by_nodes(body, scheme)) find_bound_by_nodes(body, field, scheme);
+    for (const auto& block : field.blocks) {
+      dt = std::min(dt, exec::critical_time_step(block, *body.mesh, field.active, field.buffers.weight,
+                                                 field.buffers.bounds.least_per_mass,
+                                                 scheme::waves(scheme, is_elastic(block.model), local_damping)));
+    }
   }
   return dt;
 }

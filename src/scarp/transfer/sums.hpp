@@ -5,14 +5,10 @@
 #include <array>
 
 #include "scarp/transfer/at_nodes.hpp"
+#include "scarp/transfer/node_sums.hpp"
 #include "scarp/transfer/quadrature.hpp"
 
 namespace scarp::transfer {
-
-/// What a node receives in step 1, as numbers beside each other: m (eq. 1), p (eq. 2), F_int (eq. 4); in space one more
-/// that is not used.
-template <int Dim>
-inline constexpr int node_sums = Dim == 2 ? 5 : 8;
 
 /// Do the elements keep M_ij = Σ m_p N_i N_j? With few nodes that is less work than to go through the points again.
 inline constexpr int most_nodes_with_mass_matrix = 8;
@@ -257,11 +253,12 @@ inline void add_to_nodes(const ElementSums<Basis>& sums, const std::array<Nodal<
   const auto m = total<Basis>(sums.m);
   const auto p = totals<Basis>(sums.p);
   repeat<nodal_batches<Basis>>([&](auto b) {
-    std::array<Lane<Basis>, node_sums<Dim>> values;
-    values[0] = m[b];
+    using Sums = NodeSums<Dim>;
+    std::array<Lane<Basis>, Sums::size> values;
+    values[Sums::mass_at] = m[b];
     repeat<Dim>([&](auto j) {
-      values[1 + j] = p[j][b];
-      values[1 + Dim + j] = F[j][b];
+      values[Sums::momentum_at + j] = p[j][b];
+      values[Sums::internal_force_at + j] = F[j][b];
     });
     if constexpr (Dim == 3) values[7] = Lane<Basis>(0.0);
     add_to_places<std::min(W, Basis::nodes - b * W)>(values, place + b * W, nodes);

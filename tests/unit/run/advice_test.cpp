@@ -61,9 +61,9 @@ TEST(Advice, SeesElementsThatAreSmallInOnePlaceOnly) {
   for (int i = 0; i < 100; ++i) square(0.5 + 0.05 * (i % 10), 0.5 + 0.05 * (i / 10), 0.05);
   complete(mesh);
   Body<2> graded(std::make_unique<const Mesh<2>>(mesh), input.gravity);
-  graded.blocks = body.blocks;
+  graded.fields[0].blocks = body.fields[0].blocks;
   const Locator<2> locator(mesh);
-  for (auto& block : graded.blocks) {
+  for (auto& block : graded.blocks()) {
     for (int i = 0; i < block.size(); ++i)
       block.points.element[i] = locator.find_anywhere({block.points.x[0][i], block.points.x[1][i]}).element;
   }
@@ -82,7 +82,7 @@ TEST(Advice, CountsPointsOfElements) {
   int most = 0, least = 1000;
   for (int e = 0; e < body.mesh->element_count(); ++e) {
     int count = 0;
-    for (const auto& block : body.blocks)
+    for (const auto& block : body.blocks())
       count += static_cast<int>(std::count(block.points.element.begin(), block.points.element.end(), e));
     most = std::max(most, count);
     if (count > 0) least = std::min(least, count);

@@ -20,7 +20,7 @@ Body<2> one_point() {
   points.x[0][0] = points.x[1][0] = 0.25;
   points.volume[0] = points.initial_volume[0] = 0.25;
   points.mass[0] = 0.5;
-  body.blocks.push_back(std::move(block));
+  body.fields[0].blocks.push_back(std::move(block));
   locate_points(body);
   return body;
 }
@@ -31,7 +31,7 @@ TEST(Frames, ShowWhatIsDeclaredSo) {
   std::ifstream file(std::string(SCARP_SOURCE_DIR) + "/docs/output.md");
   std::stringstream page;
   page << file.rdbuf();
-  Points<2>::each(body.blocks[0].points, [&](const PointArray& info, const auto&) {
+  Points<2>::each(body.blocks()[0].points, [&](const PointArray& info, const auto&) {
     const bool is_shown = std::any_of(frame.fields.begin(), frame.fields.end(),
                                       [&](const io::Field& field) { return field.name == info.key; });
     EXPECT_EQ(is_shown, info.shown) << info.key;

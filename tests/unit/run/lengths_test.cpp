@@ -48,12 +48,12 @@ TEST(Length, OfLessThanThreeElementsIsWarnedOf) {
 TEST(Length, IsThatOfTheRegionsOfItsMaterial) {
   const auto plain = build_body(input::test::read(minimal));
   const auto body = build_body(input::test::read(with_length("2.0")));
-  EXPECT_EQ(body.blocks[0].length, 2.0);
-  EXPECT_EQ(body.blocks[0].state.size(), plain.blocks[0].state.size() + 3);
-  EXPECT_EQ(body.blocks[1].length, 0.0);
-  EXPECT_EQ(body.blocks[1].state.size(), plain.blocks[1].state.size());
-  for (std::size_t c = 0; c < plain.blocks[0].state.size(); ++c)
-    EXPECT_EQ(body.blocks[0].state[c], plain.blocks[0].state[c]);
+  EXPECT_EQ(body.blocks()[0].length, 2.0);
+  EXPECT_EQ(body.blocks()[0].state.size(), plain.blocks()[0].state.size() + 3);
+  EXPECT_EQ(body.blocks()[1].length, 0.0);
+  EXPECT_EQ(body.blocks()[1].state.size(), plain.blocks()[1].state.size());
+  for (std::size_t c = 0; c < plain.blocks()[0].state.size(); ++c)
+    EXPECT_EQ(body.blocks()[0].state[c], plain.blocks()[0].state[c]);
 }
 
 TEST(Length, StartsFromTheKappaThatARegionStartsWith) {
@@ -65,7 +65,7 @@ TEST(Length, StartsFromTheKappaThatARegionStartsWith) {
          text.substr(to);
   text = replaced(text, "R_b = 3.0, OCR = 1.6, beta = \"isotropic\"", "epsp_acc = 0.05");
   const auto body = build_body(input::test::read(text));
-  const auto& state = body.blocks[0].state;
+  const auto& state = body.blocks()[0].state;
   EXPECT_EQ(state.end()[-3][0], 0.05);
   EXPECT_EQ(state.end()[-2][0], 0.05);
   EXPECT_EQ(state.end()[-1][0], 0.0);

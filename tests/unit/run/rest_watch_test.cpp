@@ -25,7 +25,7 @@ Body<2> pillar(double gravity = g) {
     block.points.x[0][p] = 5;
     block.points.x[1][p] = 5 + H * p;
   }
-  body.blocks.push_back(std::move(block));
+  body.fields[0].blocks.push_back(std::move(block));
   return body;
 }
 
@@ -43,7 +43,7 @@ template <class F>
 int steps_to_rest(const input::RestInput& rest, Body<2> body, int most, F&& place) {
   RestWatch<2> watch(rest, body);
   for (int n = 1; n <= most; ++n) {
-    body.blocks[0].points.x[0][1] = 5 + place(n * dt);
+    body.blocks()[0].points.x[0][1] = 5 + place(n * dt);
     if (watch.at_rest(in_balance(), body)) return n;
   }
   return most + 1;

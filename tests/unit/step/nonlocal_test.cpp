@@ -40,14 +40,14 @@ Body<Dim> filled(Mesh<Dim> mesh, int n, double length) {
     block.points.mass[i] = block.points.volume[i];
     block.points.id[i] = i;
   }
-  body.blocks.push_back(std::move(block));
+  body.fields[0].blocks.push_back(std::move(block));
   locate_points(body);
   return body;
 }
 
 template <int Dim>
 Column& kappa_of(Body<Dim>& body) {
-  return body.blocks[0].state.end()[-3];
+  return body.blocks()[0].state.end()[-3];
 }
 
 /// κ̄ of every point, from dκ̂/dt = ((1 − m) κ + m κ̄ − κ̂) / time with κ̂ far below, so that the growth is positive.
@@ -55,10 +55,10 @@ Column& kappa_of(Body<Dim>& body) {
 template <int Dim>
 Column averages_of(Body<Dim>& body) {
   constexpr double low = -1, time = 1;
-  auto& state = body.blocks[0].state;
+  auto& state = body.blocks()[0].state;
   Column &kappa_hat = state.end()[-2], &rate = state.end()[-1];
   std::fill(kappa_hat.begin(), kappa_hat.end(), low);
-  body.averages.every = 1;
+  body.fields[0].averages.every = 1;
   step::average_softening(body, time);
   Column average(rate.size());
   for (std::size_t i = 0; i < rate.size(); ++i) average[i] = (rate[i] * time + low + kappa_of(body)[i]) / 2;
@@ -88,7 +88,7 @@ struct Spread {
 template <int Dim>
 Spread spread(Background kind, int n, double length) {
   auto body = filled<Dim>(mesh_of<Dim>(kind, n), n, length);
-  const auto& points = body.blocks[0].points;
+  const auto& points = body.blocks()[0].points;
   Spread mean;
   int spikes = 0;
   for (int p = 0; p < points.size(); ++p) {
