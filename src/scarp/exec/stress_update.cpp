@@ -338,9 +338,8 @@ void trial_stresses(const Block<Dim>& block, TrialState<Dim>& trial, PointRange 
 }
 
 template <int Dim>
-double critical_time_step(const Block<Dim>& block, const std::vector<double>& element_size,
-                          const ActiveElements& active, const Column& weight, const Column& least_per_mass,
-                          const WaveSettings& waves) {
+double critical_time_step(const Block<Dim>& block, const Mesh<Dim>& mesh, const ActiveElements& active,
+                          const Column& weight, const Column& least_per_mass, const WaveSettings& waves) {
   const auto& points = block.points;
   double dt = std::numeric_limits<double>::infinity();
   for (int i = 0; i < block.size(); ++i) {
@@ -351,7 +350,7 @@ double critical_time_step(const Block<Dim>& block, const std::vector<double>& el
       for (int j = 0; j < Dim; ++j) v2 += points.v[j][i] * points.v[j][i];
       const int e = points.element[i];
       const int slot = active.slot[e];
-      const double h = element_size[e], least = least_per_mass.empty() ? 0.0 : least_per_mass[slot] * h * h;
+      const double h = mesh.size_of(e), least = least_per_mass.empty() ? 0.0 : least_per_mass[slot] * h * h;
       const double per_mass = std::max(std::max(1.0, weight[slot]) * points.volume[i] / points.mass[i], least);
       const double c2 = modulus * per_mass;
       dt = std::min(dt, h / (std::sqrt(c2 * waves.per_limit2(c2 / (h * h))) + std::sqrt(v2)));
@@ -368,9 +367,9 @@ template void trial_stresses<2>(const Block<2>&, TrialState<2>&, PointRange, con
                                 const IntegrationSettings&, StressBooks&, const WaveSettings&);
 template void trial_stresses<3>(const Block<3>&, TrialState<3>&, PointRange, const PointIncrements<3>&, int, double,
                                 const IntegrationSettings&, StressBooks&, const WaveSettings&);
-template double critical_time_step<2>(const Block<2>&, const std::vector<double>&, const ActiveElements&, const Column&,
+template double critical_time_step<2>(const Block<2>&, const Mesh<2>&, const ActiveElements&, const Column&,
                                       const Column&, const WaveSettings&);
-template double critical_time_step<3>(const Block<3>&, const std::vector<double>&, const ActiveElements&, const Column&,
+template double critical_time_step<3>(const Block<3>&, const Mesh<3>&, const ActiveElements&, const Column&,
                                       const Column&, const WaveSettings&);
 
 }  // namespace scarp::exec

@@ -38,7 +38,7 @@ inline void with_flat_basis(const Mesh<Dim>& mesh, const int* elements, int firs
   }
   for (int slot = first; slot < last; ++slot) {
     const int e = elements[slot];
-    with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) { f(Linear<Shape>{}, slot, e); });
+    with_shape<Dim>(mesh.type_of(e), [&]<class Shape>(Shape) { f(Linear<Shape>{}, slot, e); });
   }
 }
 

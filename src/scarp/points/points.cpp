@@ -15,7 +15,7 @@ void find_fresh(const std::vector<Block<Dim>>& blocks, ActiveElements& active) {
   for (const auto& block : blocks) {
     for (const int e : block.points.element) {
       if (active.slot[e] >= 0) continue;
-      active.slot[e] = taken;
+      active.slot.set(e, taken);
       active.fresh.push_back(e);
     }
   }
@@ -27,13 +27,13 @@ template <int Dim>
 bool update_active(const std::vector<Block<Dim>>& blocks, ActiveElements& active) {
   constexpr int empty = -2;
   auto& list = active.element;
-  for (const int e : list) active.slot[e] = empty;
+  for (const int e : list) active.slot.set(e, empty);
   for (const auto& block : blocks) {
-    for (const int e : block.points.element) active.slot[e] = 0;
+    for (const int e : block.points.element) active.slot.set(e, 0);
   }
   const auto kept = std::remove_if(list.begin(), list.end(), [&](int e) {
     const bool gone = active.slot[e] == empty;
-    if (gone) active.slot[e] = -1;
+    if (gone) active.slot.set(e, -1);
     return gone;
   });
   const bool changed = kept != list.end() || !active.fresh.empty();
@@ -45,7 +45,7 @@ bool update_active(const std::vector<Block<Dim>>& blocks, ActiveElements& active
   for (auto to = static_cast<std::ptrdiff_t>(list.size()) - 1; fresh >= 0; --to) {
     list[to] = from >= 0 && list[from] > active.fresh[fresh] ? list[from--] : active.fresh[fresh--];
   }
-  for (int s = 0; s < active.size(); ++s) active.slot[list[s]] = s;
+  for (int s = 0; s < active.size(); ++s) active.slot.set(list[s], s);
   return changed;
 }
 
@@ -65,7 +65,7 @@ void sort_by_slot(Block<Dim>& block, const ActiveElements& active) {
 
 template <int Dim>
 bool sort_by_element(std::vector<Block<Dim>>& blocks, int element_count, ActiveElements& active) {
-  active.slot.resize(element_count, -1);
+  active.slot.resize(element_count);
   find_fresh(blocks, active);
   const bool changed = update_active(blocks, active);
   for (auto& block : blocks) sort_by_slot(block, active);

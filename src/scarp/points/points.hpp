@@ -11,6 +11,7 @@
 
 #include "scarp/base/column.hpp"
 #include "scarp/base/vec.hpp"
+#include "scarp/base/zero_pages.hpp"
 #include "scarp/material/models.hpp"
 #include "scarp/material/nonlocal.hpp"
 #include "scarp/tensor/sym.hpp"
@@ -177,7 +178,7 @@ void reserve_order(Block<Dim>& block, std::size_t elements) {
 /// The elements that hold points, ascending, and the place (slot) of each element in that list.
 struct ActiveElements {
   std::vector<int> element;  ///< of each slot
-  std::vector<int> slot;     ///< of each element of the mesh; -1 where it holds no point
+  MostlyNone<int> slot;      ///< of each element of the mesh; -1 where it holds no point
   std::vector<int> fresh;    ///< elements that were not active before; scratch of sort_by_element()
 
   int size() const { return static_cast<int>(element.size()); }

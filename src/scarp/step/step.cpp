@@ -152,7 +152,7 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
   if (!body.interactions.empty()) timed(P::nodes, [&] { step::interact(body, dt, settings); });         // 3, end
   if (scheme.two_terms) {
     each(P::velocities, [&](Field& f) { step::sum_with_mass_matrix<2 * Dim>(body, f, 0, books); });
-    each(P::nodes, [&](Field& f) { step::filter_changes(f, dt, settings, books); });           // 4: c = P c
+    each(P::nodes, [&](Field& f) { step::filter_changes(f, dt, settings, books); });                 // 4: c = P c
     each(P::velocities, [&](Field& f) { step::sum_with_mass_matrix<2 * Dim>(body, f, 0, books); });  // 4, 5, eqs 6, 7
   } else {
     each(P::velocities, [&](Field& f) { step::sum_with_mass_matrix<Dim>(body, f, 0, books); });  // 4, 5, eqs 6, 7
@@ -203,7 +203,7 @@ double critical_time_step(Body<Dim>& body, const Scheme& scheme, double local_da
   for (auto& field : body.fields) {
     if (step::bounds_by_nodes(body, scheme)) find_bound_by_nodes(body, field, scheme);
     for (const auto& block : field.blocks) {
-      dt = std::min(dt, exec::critical_time_step(block, body.mesh->size, field.active, field.buffers.weight,
+      dt = std::min(dt, exec::critical_time_step(block, *body.mesh, field.active, field.buffers.weight,
                                                  field.buffers.bounds.least_per_mass,
                                                  scheme::waves(scheme, is_elastic(block.model), local_damping)));
     }
