@@ -22,7 +22,8 @@ static_assert(basis::is_complete<Axisymmetric<GridLinear<2>>>() && basis::is_com
               basis::is_complete<Axisymmetric<Linear<T3>>>() && basis::is_complete<Axisymmetric<Linear<Q4>>>());
 
 template <int Dim, class F>
-inline void with_flat_basis(const Mesh<Dim>& mesh, const int* elements, int first, int last, F&& f) {
+[[gnu::always_inline]] inline void with_flat_basis(const Mesh<Dim>& mesh, const int* elements, int first, int last,
+                                                   F&& f) {
   const auto all = [&](auto basis) {
     for (int slot = first; slot < last; ++slot) f(basis, slot, elements[slot]);
   };
@@ -45,10 +46,10 @@ inline void with_flat_basis(const Mesh<Dim>& mesh, const int* elements, int firs
 }  // namespace detail
 
 /// f(basis, slot, element) for slots first ... last - 1 of a list of elements. The choice is made once for all on a
-/// grid, once per element elsewhere. A case asks for no body of
+/// grid, once per element elsewhere. Inlined, so that what f captures stays in registers. A case asks for no body of
 /// revolution of points that are boxes.
 template <int Dim, class F>
-inline void with_basis(const Mesh<Dim>& mesh, const int* elements, int first, int last, F&& f) {
+[[gnu::always_inline]] inline void with_basis(const Mesh<Dim>& mesh, const int* elements, int first, int last, F&& f) {
   if constexpr (Dim == 2) {
     if (mesh.axisymmetric) {
       detail::with_flat_basis(mesh, elements, first, last, [&]<class Plane>(Plane, int slot, int e) {
