@@ -48,17 +48,18 @@ Mesh<2> shaken(int n, ElementShape shape) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> move(-0.2, 0.2);
   Mesh<2> mesh;
-  for (Vec<2> x : regular.nodes) {
+  for (int i = 0; i < regular.node_count(); ++i) {
+    Vec<2> x = regular.node(i);
     // The sides and the surface of the soil stay straight: its elements are full or empty.
     for (double& coordinate : x)
       if (coordinate > 2.5 && coordinate < side - 2.5) coordinate += move(random);
-    mesh.nodes.push_back(x);
+    mesh.lists.nodes.push_back(x);
   }
-  mesh.offsets.push_back(0);
+  mesh.lists.offsets.push_back(0);
   const auto add = [&](std::initializer_list<int> nodes) {
-    mesh.types.push_back(nodes.size() == 3 ? ElementType::T3 : ElementType::Q4);
-    mesh.connectivity.insert(mesh.connectivity.end(), nodes);
-    mesh.offsets.push_back(static_cast<int>(mesh.connectivity.size()));
+    mesh.lists.types.push_back(nodes.size() == 3 ? ElementType::T3 : ElementType::Q4);
+    mesh.lists.connectivity.insert(mesh.lists.connectivity.end(), nodes);
+    mesh.lists.offsets.push_back(static_cast<int>(mesh.lists.connectivity.size()));
   };
   for (int e = 0; e < regular.element_count(); ++e) {
     const auto c = regular.element_nodes(e);
@@ -101,17 +102,17 @@ void fill_elements(const Mesh<2>& mesh, int n, Block<2>& block) {
   std::vector<std::pair<Vec<2>, double>> filling;
   for (int e = 0; e < mesh.element_count(); ++e) {
     const auto nodes = mesh.element_nodes(e);
-    const auto all = places(mesh.types[e]);
+    const auto all = places(mesh.type_of(e));
     bool soil = true;
     for (const int m : nodes) {
-      const auto& x = mesh.nodes[m];
+      const auto& x = mesh.node(m);
       soil = soil && x[0] >= low && x[0] <= high && x[1] <= high;
     }
     if (!soil) continue;
     for (const auto& weight : all) {
       Vec<2> x{};
       for (std::size_t k = 0; k < nodes.size(); ++k)
-        for (int j = 0; j < 2; ++j) x[j] += weight[k] * mesh.nodes[nodes[k]][j];
+        for (int j = 0; j < 2; ++j) x[j] += weight[k] * mesh.node(nodes[k])[j];
       filling.push_back({x, element_area(mesh, e) / static_cast<double>(all.size())});
     }
   }

@@ -112,6 +112,24 @@ class Surfaces(Frames):
             del files["summary.json"]  # times of the machine
         self.expect_same(ours, theirs)
 
+    def test_the_kept_case_finds_the_surface(self):
+        os.mkdir(self.path("project"))
+        for name in ("hill.toml", "hill.stl"):
+            os.rename(self.path(name), self.path("project", name))
+        for out, overrides in (("project/r", []), ("project/deep/er", []), ("away", []), ("project/set", ["--set", "output.every=1"])):
+            with self.subTest(out=out):
+                self.scarp("run", "project/hill.toml", "--quiet", "--out", out, *overrides)
+                self.scarp("run", f"{out}/case.toml", "--quiet", "--out", "again")
+                ours, theirs = contents(self.path(out)), contents(self.path("again"))
+                for files in (ours, theirs):
+                    del files["summary.json"], files["case.toml"]  # times of the machine; names of files
+                self.expect_same(ours, theirs)
+        # The project is moved with its results; results elsewhere are moved alone.
+        os.rename(self.path("away"), self.path("moved"))
+        self.scarp("run", "moved/case.toml", "--quiet", "--out", "again")
+        os.rename(self.path("project"), self.path("archive"))
+        self.scarp("run", "archive/r/case.toml", "--quiet", "--out", "again")
+
     def test_a_hole_is_refused(self):
         self.write("hill.stl", ascii_stl(pyramid()[:-1]))
         self.refused("run", "hill.toml", "--quiet", "--out", "r", parts=["hill.stl:", "not closed"])

@@ -174,7 +174,7 @@ class BadInput(ProgramTest):
         self.refuse(walls, f"bad.toml:{place(walls, '[[boundary]]' + chr(10) + 'nodes = ' + chr(34) + 'west')}:",
                     "no such node set", '"west"', '"left"')
         huge = replaced(COLUMN, "element = 0.5", "elements = [100000, 100000]")
-        self.refuse(huge, f"bad.toml:{place(huge, '[mesh]')}:", "at most 200000000 elements", "use larger elements")
+        self.refuse(huge, f"bad.toml:{place(huge, '[mesh]')}:", "at most 2000000000 elements", "take larger elements")
         line = replaced(COLUMN, 'nodes = "left"', "line = [[0.1, 0.0], [0.1, 4.0]]")
         self.refuse(line, f"bad.toml:{place(line, '[[boundary]]' + chr(10) + 'line')}:", "no node", "(0.1, 0)", "edges")
         inner = replaced(line, "[mesh]", '[method]\nshape = "b-spline"\n\n[mesh]').replace("0.1, ", "0.25, ")

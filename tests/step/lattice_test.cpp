@@ -13,15 +13,15 @@ Mesh<3> cut_in_five(int n) {
   constexpr int even[5][4] = {{0, 2, 5, 7}, {1, 0, 2, 5}, {3, 0, 2, 7}, {4, 0, 5, 7}, {6, 2, 5, 7}};
   constexpr int odd[5][4] = {{1, 3, 4, 6}, {0, 1, 3, 4}, {2, 1, 3, 6}, {5, 1, 4, 6}, {7, 3, 4, 6}};
   Mesh<3> mesh;
-  mesh.nodes = regular.nodes;
-  mesh.offsets.push_back(0);
+  for (int node = 0; node < regular.node_count(); ++node) mesh.lists.nodes.push_back(regular.node(node));
+  mesh.lists.offsets.push_back(0);
   for (int e = 0; e < regular.element_count(); ++e) {
     const auto corner = regular.element_nodes(e);
     const auto cell = regular.grid->cell(e);
     for (const auto& t : (cell[0] + cell[1] + cell[2]) % 2 == 0 ? even : odd) {
       std::vector<int> nodes;
       for (const int i : t) nodes.push_back(corner[i]);
-      const auto edge = [&](int i, int k) { return mesh.nodes[nodes[i]][k] - mesh.nodes[nodes[0]][k]; };
+      const auto edge = [&](int i, int k) { return mesh.node(nodes[i])[k] - mesh.node(nodes[0])[k]; };
       double det = 0;
       for (int k = 0; k < 3; ++k) {
         const int l = (k + 1) % 3, m = (k + 2) % 3;

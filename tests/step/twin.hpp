@@ -71,7 +71,7 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
     const double phi = scheme.flip * std::exp(-dt / scheme.pic_time);
     this->find_shapes(settings);
     // Steps 1 and 2 (eqs 1–4).
-    const auto nodes = body_.mesh->nodes.size();
+    const auto nodes = static_cast<std::size_t>(body_.mesh->node_count());
     m_.assign(nodes, 0.0);
     std::vector<Vec<Dim>> p(nodes), F(nodes), a(nodes), v(nodes), v_next(nodes);
     held_.assign(nodes, 0);
@@ -84,7 +84,7 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
         m_[n] += point.m * at_[k].N[i];
         for (int j = 0; j < Dim; ++j) {
           double v_at = point.v[j];
-          for (int l = 0; l < Dim; ++l) v_at += point.C[j][l] * (body_.mesh->nodes[n][l] - point.x[l]);
+          for (int l = 0; l < Dim; ++l) v_at += point.C[j][l] * (body_.mesh->node(n)[l] - point.x[l]);
           p[n][j] += point.m * v_at * at_[k].N[i];
           for (int l = 0; l < Dim; ++l) F[n][j] += at_[k].B[i][l] * (stress(point, l, j) - s * (l == j)) * Omega;
         }
@@ -248,7 +248,7 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
   /// Of the rate at which a wave crosses the point's element: c²/h² over the modulus.
   double per_mass(std::size_t k) const {
     const Point& point = points[k];
-    const double h = body_.mesh->size[point.element], before = point.Omega / at_[k].taken;
+    const double h = body_.mesh->size_of(point.element), before = point.Omega / at_[k].taken;
     const double own = std::max(1.0, at_[k].w) * before / (point.m * h * h);
     return at_[k].taken * (least_per_mass_.empty() ? own : std::max(own, least_per_mass_[point.element]));
   }
@@ -260,7 +260,7 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
       std::map<int, std::vector<std::size_t>> of_element;
       for (std::size_t k = 0; k < points.size(); ++k) of_element[points[k].element].push_back(k);
       for (const auto& [e, members] : of_element) {
-        const double h = body_.mesh->size[e];
+        const double h = body_.mesh->size_of(e);
         double volume = 0, carrying = 0, s = 0, M = 0, rate2 = 0;
         bool open = false;
         for (const auto k : members) {
@@ -338,7 +338,7 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
       }
       return true;
     }
-    return with_shape<Dim>(mesh.types[point.element], [&]<class Shape>(Shape) {
+    return with_shape<Dim>(mesh.type_of(point.element), [&]<class Shape>(Shape) {
       const auto xi = Shape::local_coordinates(node_positions<Shape>(mesh, point.element), point.x);
       return Shape::beyond(xi) <= lateness;
     });
@@ -348,7 +348,7 @@ class Twin : public TwinShapes<TwinPoint<Model, Dim>, Dim> {
     const auto& mesh = *body_.mesh;
     const auto holds = [&](int e) {
       if (mesh.grid) return grid_holds(*mesh.grid, e, point.x);
-      return with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
+      return with_shape<Dim>(mesh.type_of(e), [&]<class Shape>(Shape) {
         return Shape::beyond(Shape::local_coordinates(node_positions<Shape>(mesh, e), point.x)) <=
                body_.locator.tolerance();
       });

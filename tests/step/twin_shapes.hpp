@@ -19,7 +19,7 @@ class TwinShapes {
   std::vector<Point> points;
 
  protected:
-  explicit TwinShapes(const Body<Dim>& body) : body_(body), full_volume_(body.mesh->nodes.size()) {
+  explicit TwinShapes(const Body<Dim>& body) : body_(body), full_volume_(body.mesh->node_count()) {
     for (int e = 0; e < body_.mesh->element_count() && !body_.mesh->grid; ++e) {
       for_quadrature_points(e, [&](const auto&, const auto& nodes, double dV) {
         for (const int n : nodes) full_volume_[n] += dV / static_cast<double>(nodes.size());
@@ -42,7 +42,7 @@ class TwinShapes {
   void find_shapes(const StepSettings& settings) {
     const auto& mesh = *body_.mesh;
     at_.assign(points.size(), {});
-    std::vector<std::vector<std::size_t>> in(mesh.types.size());
+    std::vector<std::vector<std::size_t>> in(mesh.element_count());
     for (std::size_t k = 0; k < points.size(); ++k) {
       const int e = points[k].element;
       in[e].push_back(k);
@@ -50,7 +50,7 @@ class TwinShapes {
         at_[k] = at_nodes_of_grid(e, points[k].x, points[k].half_edge);
         continue;
       }
-      with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
+      with_shape<Dim>(mesh.type_of(e), [&]<class Shape>(Shape) {
         const auto x_i = node_positions<Shape>(mesh, e);
         std::array<double, Shape::nodes> N_i;
         std::array<Vec<Dim>, Shape::nodes> B;
@@ -80,7 +80,7 @@ class TwinShapes {
   /// element's mean gradient (step/node_rates.hpp).
   void bound_by_nodes(const std::vector<double>& m) {
     const auto& mesh = *body_.mesh;
-    std::vector<double> filled(mesh.types.size()), G(m.size());
+    std::vector<double> filled(mesh.element_count()), G(m.size());
     for (std::size_t k = 0; k < points.size(); ++k) filled[points[k].element] += at_[k].w * points[k].Omega;
     for (int e = 0; e < mesh.element_count(); ++e) {
       double V = 0;
@@ -95,7 +95,7 @@ class TwinShapes {
         for (int j = 0; j < Dim; ++j) G[n] += filled[e] * B[j] / V * B[j] / V;
       }
     }
-    least_per_mass_.assign(mesh.types.size(), 0);
+    least_per_mass_.assign(mesh.element_count(), 0);
     for (std::size_t k = 0; k < points.size(); ++k) {
       if (!is_simplex(points[k].element)) continue;
       double here = 0;
@@ -160,7 +160,7 @@ class TwinShapes {
       });
       return;
     }
-    with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
+    with_shape<Dim>(mesh.type_of(e), [&]<class Shape>(Shape) {
       const auto add = [&](const Vec<Dim>& xi, double weight) {
         const auto x_i = node_positions<Shape>(mesh, e);
         std::array<double, Shape::nodes> N_i;

@@ -47,10 +47,10 @@ TEST(BodyOfRevolution, RadialExpansionStrainsTheCircumferenceAsMuch) {
     const int e = body.fields[0].active.element[slot];
     const auto n = body.mesh->element_nodes(e);
     std::array<transfer::Motion<2>, 4> motion;
-    transfer::ElementMotion<Basis> element{{}, no_correction, 1, body.mesh->size[e], no_correction};
+    transfer::ElementMotion<Basis> element{{}, no_correction, 1, body.mesh->size_of(e), no_correction};
     for (int i = 0; i < 4; ++i) {
-      motion[i].du(0) = c * body.mesh->nodes[n[i]][0];
-      motion[i].du(1) = -2 * c * body.mesh->nodes[n[i]][1];
+      motion[i].du(0) = c * body.mesh->node(n[i])[0];
+      motion[i].du(1) = -2 * c * body.mesh->node(n[i])[1];
       element.motion[i] = motion[i].row.data();
     }
     transfer::nodes_to_points<false, Basis>(
@@ -159,7 +159,7 @@ TEST(BodyOfRevolution, SoilInARigidCylinderRestsUnderGeostaticStress) {
       for (int c = 0; c < 3; ++c) sum[c] += block.points.volume[p] * block.points.sigma[c][p];
       filled += block.points.volume[p];
     }
-    const double y = body.mesh->nodes[body.mesh->element_nodes(e)[0]][1] + h / 2;
+    const double y = body.mesh->node(body.mesh->element_nodes(e)[0])[1] + h / 2;
     if (y > H - 2 * h) continue;  // the surface and what it is next to
     const double vertical = -rho * g * (H - y);
     worst = std::max({worst, std::abs(sum[1] / filled - vertical), std::abs(sum[0] / filled - nu / (1 - nu) * vertical),

@@ -112,7 +112,7 @@ struct Moments {
 
 Moments moments_of(const Body<2>& body) {
   const auto& points = body.blocks()[0].points;
-  const auto count = body.mesh->nodes.size();
+  const auto count = static_cast<std::size_t>(body.mesh->node_count());
   std::vector<double> m(count, 0.0);
   std::vector<Vec<2>> mx(count), f(count);
   for (int p = 0; p < points.size(); ++p) {
@@ -130,7 +130,7 @@ Moments moments_of(const Body<2>& body) {
   Moments sum;
   for (std::size_t i = 0; i < count; ++i) {
     if (m[i] == 0) continue;  // no point near
-    const double x = body.mesh->nodes[i][0] - 0.5, y = body.mesh->nodes[i][1] - 0.5;
+    const double x = body.mesh->node(static_cast<int>(i))[0] - 0.5, y = body.mesh->node(static_cast<int>(i))[1] - 0.5;
     sum.of_change += (mx[i][0] * f[i][1] - mx[i][1] * f[i][0]) / m[i];
     sum.of_forces += x * f[i][1] - y * f[i][0];
     sum.size += std::hypot(x, y) * std::hypot(f[i][0], f[i][1]);

@@ -19,12 +19,12 @@ inline std::string name_of(Cells cells) {
 inline Mesh<2> cut_up(const Mesh<2>& regular, Cells cells) {
   if (cells == Cells::grid) return regular;
   Mesh<2> mesh;
-  mesh.nodes = regular.nodes;
-  mesh.offsets.push_back(0);
+  for (int n = 0; n < regular.node_count(); ++n) mesh.lists.nodes.push_back(regular.node(n));
+  mesh.lists.offsets.push_back(0);
   const auto add = [&](std::initializer_list<int> nodes) {
-    mesh.types.push_back(nodes.size() == 3 ? ElementType::T3 : ElementType::Q4);
-    mesh.connectivity.insert(mesh.connectivity.end(), nodes.begin(), nodes.end());
-    mesh.offsets.push_back(static_cast<int>(mesh.connectivity.size()));
+    mesh.lists.types.push_back(nodes.size() == 3 ? ElementType::T3 : ElementType::Q4);
+    mesh.lists.connectivity.insert(mesh.lists.connectivity.end(), nodes.begin(), nodes.end());
+    mesh.lists.offsets.push_back(static_cast<int>(mesh.lists.connectivity.size()));
   };
   for (int e = 0; e < regular.element_count(); ++e) {
     const auto c = regular.element_nodes(e);
@@ -53,10 +53,10 @@ struct Soil {
 template <int Dim>
 Body<Dim> ground(Mesh<Dim> mesh, const Soil& soil) {
   constexpr int up = Dim - 1;
-  Vec<Dim> gravity{}, size = mesh.nodes[0];
+  Vec<Dim> gravity{}, size = mesh.node(0);
   gravity[up] = -Soil::g;
-  for (const auto& x : mesh.nodes) {
-    for (int j = 0; j < Dim; ++j) size[j] = std::max(size[j], x[j]);
+  for (int n = 0; n < mesh.node_count(); ++n) {
+    for (int j = 0; j < Dim; ++j) size[j] = std::max(size[j], mesh.node(n)[j]);
   }
   size[up] = soil.height;
   std::array<int, Dim> counts;

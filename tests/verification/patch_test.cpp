@@ -147,7 +147,7 @@ TEST(RigidRotation, TurnsStressBetaAndCentreWithTheBody) {
       const int e = body.fields[0].active.element[slot];
       const auto x_i = node_positions<Q4>(*body.mesh, e);
       std::array<transfer::Motion<2>, 4> motion;
-      transfer::ElementMotion<GridLinear<2>> element{{}, no_correction, 1, body.mesh->size[e]};
+      transfer::ElementMotion<GridLinear<2>> element{{}, no_correction, 1, body.mesh->size_of(e)};
       for (int i = 0; i < 4; ++i) {
         motion[i].du(0) = -w * x_i[i][1];
         motion[i].du(1) = w * x_i[i][0];

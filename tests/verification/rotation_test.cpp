@@ -118,9 +118,9 @@ void move_with_nodes(Body<Dim>& body, const Matrix& m) {
                constexpr double no_correction[Dim * transfer::nodal_size<Basis>] = {};
                const auto nodes = body.mesh->element_nodes(e);
                std::array<transfer::Motion<Dim>, Basis::nodes> motion;
-               transfer::ElementMotion<Basis> element{{}, no_correction, 1, body.mesh->size[e], no_correction};
+               transfer::ElementMotion<Basis> element{{}, no_correction, 1, body.mesh->size_of(e), no_correction};
                for (int i = 0; i < Basis::nodes; ++i) {
-                 const auto du = product(m, body.mesh->nodes[nodes[i]]);
+                 const auto du = product(m, body.mesh->node(nodes[i]));
                  for (int j = 0; j < Dim; ++j) motion[i].du(j) = du[j];
                  element.motion[i] = motion[i].row.data();
                }

@@ -78,7 +78,7 @@ inline double roughness(const Body<2>& body) {
     const int slot = body.fields[0].active.slot[e];
     return slot >= 0 && body.fields[0].buffers.inside[slot];
   };
-  std::vector<std::vector<int>> points_in(body.mesh->types.size());
+  std::vector<std::vector<int>> points_in(body.mesh->element_count());
   for (int p = 0; p < points.size(); ++p) points_in[points.element[p]].push_back(p);
   double left2 = 0, sum = 0;
   int n = 0;

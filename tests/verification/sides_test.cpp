@@ -98,7 +98,7 @@ TEST(AbsorbingSide, KeepsTheForceWithWhichItWasHeld) {
   auto& points = body.blocks()[0].points;
   for (int p = 0; p < points.size(); ++p) points.sigma[0][p] = -50;
   for (int n = 0; n < body.mesh->node_count(); ++n) {  // all held: this stress is no equilibrium elsewhere
-    if (body.mesh->nodes[n][0] < L - 0.5 * h) fix(body.conditions, std::array{n}, 0);
+    if (body.mesh->node(n)[0] < L - 0.5 * h) fix(body.conditions, std::array{n}, 0);
   }
   auto others = body.conditions;
   for (const int n : body.mesh->node_sets.at("right"))
@@ -140,7 +140,8 @@ TEST(AbsorbingSide, GivesAsMuchAsTheSoilBeyondWould) {
 TEST(AbsorbingSide, TakesNoMoreThanHalfOfALightNodesMotion) {
   // C dt / m from small to large: v* never has the other sign of v where nothing else acts, and energy falls.
   Sides<2> sides;
-  sides.of_node = {0};
+  sides.of_node.resize(1);
+  sides.of_node.set(0, 0);
   sides.node.resize(1);
   sides.node[0].mass = 1;
   for (const double kappa : {0.1, 1.0, 1.9, 2.1, 10.0, 1e4}) {
@@ -168,7 +169,7 @@ TEST(AbsorbingSide, IsRefusedWhereItCannotBe) {
   std::vector<int> inside, all;
   for (int n = 0; n < body.mesh->node_count(); ++n) {
     all.push_back(n);
-    if (std::abs(body.mesh->nodes[n][0] - 10) < 1e-9) inside.push_back(n);
+    if (std::abs(body.mesh->node(n)[0] - 10) < 1e-9) inside.push_back(n);
   }
   refused({inside, {}, {}}, "flat sides of the mesh");
   refused({all, {}, {}}, "flat sides of the mesh");

@@ -39,4 +39,22 @@ struct ZeroPagesAllocator {
 template <class Value>
 using ZeroPages = std::vector<Value, ZeroPagesAllocator<Value>>;
 
+/// A whole number of each of very many things, -1 where none was set; to be sized once. What costs memory are those
+/// that were set, and their neighbours.
+template <class Int>
+class MostlyNone {
+ public:
+  MostlyNone() = default;
+  explicit MostlyNone(std::size_t count) : next_(count) {}
+  void resize(std::size_t count) { next_.resize(count); }
+  bool empty() const { return next_.empty(); }
+  std::size_t size() const { return next_.size(); }
+
+  int operator[](std::size_t i) const { return next_[i] - 1; }
+  void set(std::size_t i, int value) { next_[i] = static_cast<Int>(value + 1); }
+
+ private:
+  ZeroPages<Int> next_;  ///< one more
+};
+
 }  // namespace scarp

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scarp/base/error.hpp"
+#include "scarp/mesh/near.hpp"
 
 namespace scarp {
 
@@ -17,23 +18,24 @@ void fix(Conditions<Dim>& conditions, std::span<const int> nodes, int component)
 template <int Dim>
 void wall(Conditions<Dim>& conditions, const Mesh<Dim>& mesh, std::span<const int> nodes, int component,
           double friction) {
-  std::vector<char> chosen(mesh.node_count(), 0), below(mesh.node_count(), 0), above(mesh.node_count(), 0);
+  const auto count = static_cast<std::size_t>(mesh.node_count());
+  ZeroPages<char> chosen(count), below(count), above(count);
   for (const int n : nodes) chosen[n] = 1;
-  for (int e = 0; e < mesh.element_count(); ++e) {
+  for_elements_near(mesh, box_around(mesh, nodes), [&](int e) {
     double centre = 0;
     const auto local = mesh.element_nodes(e);
-    for (const int n : local) centre += mesh.nodes[n][component] / static_cast<double>(local.size());
+    for (const int n : local) centre += mesh.node(n)[component] / static_cast<double>(local.size());
     for (const int n : local) {
-      if (chosen[n]) (centre > mesh.nodes[n][component] ? above : below)[n] = 1;
+      if (chosen[n]) (centre > mesh.node(n)[component] ? above : below)[n] = 1;
     }
-  }
+  });
   for (const int n : nodes) {
     if (above[n] && below[n]) {
       throw InputError("a wall with friction lies on the boundary of the mesh, with the mesh on one side",
-                       fmt::format("the node at ({:g}) with elements on both sides", fmt::join(mesh.nodes[n], ", ")),
+                       fmt::format("the node at ({:g}) with elements on both sides", fmt::join(mesh.node(n), ", ")),
                        "name nodes of one side of the mesh, or leave friction out");
     }
-    conditions.normal[n] = static_cast<std::int8_t>(component);
+    conditions.normal.set(n, component);
     conditions.inward[n] = above[n] ? 1.0 : -1.0;
     conditions.friction[n] = friction;
   }

@@ -17,17 +17,17 @@ enum class WallRule {
   by_motion,        ///< where the motion of the step goes into it; that comes to rest (W1 of docs/theory.md)
 };
 
-/// Boundary conditions of all nodes. A wall is a node whose `normal` component is held against the soil only: it pushes
-/// back, does not pull, and resists sliding with Coulomb friction.
+/// Boundary conditions of each node; where there are none they cost no memory. A wall is a node whose `normal`
+/// component is held against the soil only: it pushes back, does not pull, and resists sliding with Coulomb friction.
 template <int Dim>
 struct Conditions {
-  std::vector<std::uint8_t> fixed;  ///< of each node: bit j set where component j does not move
-  std::vector<std::int8_t> normal;  ///< of each node: the wall's normal component, or -1
-  ZeroPages<double> inward;         ///< +1 or -1: which way along the normal the mesh lies
-  ZeroPages<double> friction;       ///< coefficient μ
+  ZeroPages<std::uint8_t> fixed;   ///< bit j set where component j does not move
+  MostlyNone<std::int8_t> normal;  ///< the wall's normal component, or -1
+  ZeroPages<double> inward;        ///< +1 or -1: which way along the normal the mesh lies
+  ZeroPages<double> friction;      ///< coefficient μ
 
   explicit Conditions(int node_count = 0)
-      : fixed(node_count, 0), normal(node_count, -1), inward(node_count), friction(node_count) {}
+      : fixed(node_count), normal(node_count), inward(node_count), friction(node_count) {}
 };
 
 /// Is nothing imposed at node n?

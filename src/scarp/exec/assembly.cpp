@@ -7,7 +7,7 @@ namespace scarp::exec {
 template <int Dim>
 void Assembly::rebuild(const Mesh<Dim>& mesh, const ActiveElements& active) {
   for (const int n : node_) latest_[n] = {};
-  latest_.resize(mesh.nodes.size());
+  latest_.resize(mesh.node_count());
   row_ = 0;
   for (const int e : active.element) row_ = std::max(row_, static_cast<int>(mesh.element_nodes(e).size()));
   // Nodes in the order in which the elements touch them, so that sweeps over nodes and elements go through memory

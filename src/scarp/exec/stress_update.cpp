@@ -355,9 +355,8 @@ void trial_stresses(const Block<Dim>& block, TrialState<Dim>& trial, PointRange 
 }
 
 template <int Dim>
-double critical_time_step(const Block<Dim>& block, const std::vector<double>& element_size,
-                          const ActiveElements& active, const Column& weight, const Column& least_per_mass,
-                          const WaveSettings& waves) {
+double critical_time_step(const Block<Dim>& block, const Mesh<Dim>& mesh, const ActiveElements& active,
+                          const Column& weight, const Column& least_per_mass, const WaveSettings& waves) {
   const auto& points = block.points;
   const double per_limit2 = waves.per_limit2(1.0);
   double most2 = 0;
@@ -368,7 +367,7 @@ double critical_time_step(const Block<Dim>& block, const std::vector<double>& el
           std::array<double, batch_lanes> per_mass{}, per_size2{};
           for (int l = 0; l < p.count(); ++l) {  // as nodes_to_points() has them
             const int i = p.point(l), e = points.element[i], slot = active.slot[e];
-            per_size2[l] = 1 / (element_size[e] * element_size[e]);
+            per_size2[l] = 1 / (mesh.size_of(e) * mesh.size_of(e));
             const double stiffer = weight[slot] > 1 ? weight[slot] * per_size2[l] : per_size2[l];
             per_mass[l] = stiffer * points.volume[i] / points.mass[i];
             if (!least_per_mass.empty()) per_mass[l] = std::max(per_mass[l], least_per_mass[slot]);
@@ -397,9 +396,9 @@ template void trial_stresses<2>(const Block<2>&, TrialState<2>&, PointRange, con
                                 const IntegrationSettings&, StressBooks&, const WaveSettings&);
 template void trial_stresses<3>(const Block<3>&, TrialState<3>&, PointRange, const PointIncrements<3>&, int, double,
                                 const IntegrationSettings&, StressBooks&, const WaveSettings&);
-template double critical_time_step<2>(const Block<2>&, const std::vector<double>&, const ActiveElements&, const Column&,
+template double critical_time_step<2>(const Block<2>&, const Mesh<2>&, const ActiveElements&, const Column&,
                                       const Column&, const WaveSettings&);
-template double critical_time_step<3>(const Block<3>&, const std::vector<double>&, const ActiveElements&, const Column&,
+template double critical_time_step<3>(const Block<3>&, const Mesh<3>&, const ActiveElements&, const Column&,
                                       const Column&, const WaveSettings&);
 
 }  // namespace scarp::exec

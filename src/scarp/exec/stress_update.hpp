@@ -85,9 +85,8 @@ void trial_stresses(const Block<Dim>& block, TrialState<Dim>& trial, PointRange 
 /// stiffness; infinite where no point has stiffness. `weight` is that of the points in the quadrature of the active
 /// element in each slot, `least_per_mass` a bound of PointIncrements::per_mass from below in it, or empty.
 template <int Dim>
-double critical_time_step(const Block<Dim>& block, const std::vector<double>& element_size,
-                          const ActiveElements& active, const Column& weight, const Column& least_per_mass,
-                          const WaveSettings& waves);
+double critical_time_step(const Block<Dim>& block, const Mesh<Dim>& mesh, const ActiveElements& active,
+                          const Column& weight, const Column& least_per_mass, const WaveSettings& waves);
 
 /// f(component, its column, whether that is of sigma) for each component of a state that this model keeps in a column
 /// of `sigma` or `state`: sigma, tension positive in the arrays of the points and compression positive in the law, and

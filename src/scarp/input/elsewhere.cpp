@@ -9,13 +9,9 @@
 #include "scarp/material/models.hpp"
 
 namespace scarp::input {
-namespace {
 
-using Homes = std::map<std::string, std::string>;
-
-/// The keys of the tables that a case always has; those of the models come from the models.
-Homes homes_of_tables() {
-  const std::vector<std::pair<const char*, std::vector<const char*>>> tables = {
+std::vector<TableKeys> keys_of_tables() {
+  return {
       {"the case itself, above its tables", {"title", "dimension", "axisymmetric", "gravity"}},
       {"[mesh]", {"grid", "file"}},
       {"grid = { ... } in [mesh]", {"origin", "size", "element", "elements"}},
@@ -33,9 +29,17 @@ Homes homes_of_tables() {
       {"remove = { ... } in a [[stage]]", {"lifts", "over"}},
       {"rest = { ... } in a [[stage]]", {"unbalanced", "kinetic", "rate", "hold", "required"}},
   };
+}
+
+namespace {
+
+using Homes = std::map<std::string, std::string>;
+
+/// The keys of the tables that a case always has; those of the models come from the models.
+Homes homes_of_tables() {
   Homes homes;
-  for (const auto& [table, keys] : tables) {
-    for (const char* key : keys) homes[key] = table;
+  for (const auto& [table, keys] : keys_of_tables()) {
+    for (const auto& key : keys) homes[key] = table;
   }
   return homes;
 }

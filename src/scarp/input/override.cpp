@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
+#include <optional>
 
 #include "scarp/input/document.hpp"
 
@@ -46,7 +48,15 @@ void set_positions(Node& node, const Position& at) {
   }
 }
 
-/// The value of an override: as TOML, or else a bare word as text.
+/// A number as people write it and TOML does not: .5, 5., +.5e3, 007.
+std::optional<double> loose_number(const std::string& text) {
+  if (text.find_first_not_of("0123456789+-.eE") != text.npos) return {};
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  return end != text.c_str() && *end == '\0' ? std::optional<double>(number) : std::nullopt;
+}
+
+/// The value of an override: as TOML, or else a number, or a bare word as text.
 Node parsed_value(const std::string& value, const Position& at) {
   if (value.find('\n') != std::string::npos)
     throw InputError("an override sets one value", "more than one line", "give --set once for each value", at);
@@ -54,6 +64,12 @@ Node parsed_value(const std::string& value, const Position& at) {
   try {
     node = std::get<Keys>(parse_text("value = " + value, "").value).at("value");
   } catch (const InputError&) {
+    if (const auto number = loose_number(value)) {
+      node.value = *number;
+      node.whole = value.find_first_of(".eE") == value.npos;
+      set_positions(node, at);
+      return node;
+    }
     const bool word = !value.empty() && std::all_of(value.begin(), value.end(), [](unsigned char c) {
       return std::isalnum(c) || c == '_' || c == '-' || c == '.' || c == '/' || c == ' ';
     });

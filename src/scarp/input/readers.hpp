@@ -1,10 +1,15 @@
 // Readers of the tables of a case file. Each throws InputError for the first thing wrong in its table.
 #pragma once
 
+#include <array>
+
 #include "scarp/input/case.hpp"
 #include "scarp/input/table.hpp"
 
 namespace scarp::input {
+
+/// The keys whose texts are names of files, in whatever table they are.
+inline constexpr std::array keys_of_files{"file", "stl", "library"};
 
 // Relative names of files start at the folder of the case file, `case_path`. Those with Dim are there for 2 and 3.
 template <int Dim>

@@ -120,23 +120,49 @@ void write_points_vtu(const std::string& path, std::size_t count, const Field& p
 
 namespace {
 
-/// Corners and elements of a mesh.
+/// Local nodes of all elements one after the other, and where those of each element end.
+template <int Dim>
+void write_connectivity(Piece& piece, const Mesh<Dim>& mesh) {
+  const auto elements = static_cast<std::size_t>(mesh.element_count());
+  if (!mesh.grid) {
+    const auto& lists = mesh.lists;
+    piece.array(field_of<std::int64_t>("connectivity", [&](std::size_t i) { return lists.connectivity[i]; }),
+                lists.connectivity.size());
+    piece.array(field_of<std::int64_t>("offsets", [&](std::size_t e) { return lists.offsets[e + 1]; }), elements);
+    return;
+  }
+  constexpr std::size_t each = 1u << Dim;  // of linear functions
+  piece.array({"connectivity", 1, Copy<std::int64_t>([&](std::size_t first, std::size_t last, std::int64_t* values) {
+                 for (std::size_t i = first; i < last;) {
+                   const auto nodes = mesh.element_nodes(static_cast<int>(i / each));
+                   do *values++ = nodes[i % each];
+                   while (++i < last && i % each != 0);
+                 }
+               })},
+              elements * each);
+  piece.array(field_of<std::int64_t>("offsets", [](std::size_t e) { return (e + 1) * each; }), elements);
+}
+
+/// Corners and elements of a mesh; those of a grid are the nodes of linear functions.
 template <int Dim>
 void write_elements(const std::string& path, const Mesh<Dim>& mesh) {
-  Piece piece(mesh.nodes.size(), mesh.types.size());
+  const auto nodes = static_cast<std::size_t>(mesh.node_count()),
+             elements = static_cast<std::size_t>(mesh.element_count());
+  Piece piece(nodes, elements);
   piece.open("Points");
   piece.array({"Points", 3, Copy<double>([&mesh](std::size_t first, std::size_t last, double* values) {
-                 for (std::size_t n = first; n < last; ++n)
-                   for (int k = 0; k < 3; ++k) *values++ = k < Dim ? mesh.nodes[n][k] : 0.0;
+                 for (std::size_t n = first; n < last; ++n) {
+                   const Vec<Dim> x = mesh.node(static_cast<int>(n));
+                   for (int k = 0; k < 3; ++k) *values++ = k < Dim ? x[k] : 0.0;
+                 }
                })},
-              mesh.nodes.size());
+              nodes);
   piece.close("Points");
-  const std::size_t elements = mesh.types.size();
   piece.open("Cells");
-  piece.array(field_of<std::int64_t>("connectivity", [&](std::size_t i) { return mesh.connectivity[i]; }),
-              mesh.connectivity.size());
-  piece.array(field_of<std::int64_t>("offsets", [&](std::size_t e) { return mesh.offsets[e + 1]; }), elements);
-  piece.array(field_of<std::uint8_t>("types", [&](std::size_t e) { return cell_type(mesh.types[e]); }), elements);
+  write_connectivity(piece, mesh);
+  piece.array(
+      field_of<std::uint8_t>("types", [&](std::size_t e) { return cell_type(mesh.type_of(static_cast<int>(e))); }),
+      elements);
   piece.close("Cells");
   piece.write_to(path);
 }

@@ -17,8 +17,7 @@ struct Axisymmetric : Plane {
   class Cell : public Plane::Cell {
    public:
     Cell(const Mesh<2>& mesh, int e) : Plane::Cell(mesh, e) {
-      const auto n = mesh.element_nodes(e);
-      for (int i = 0; i < nodes; ++i) r_[i] = mesh.nodes[n[i]][0];
+      mesh.for_local_positions(e, [&, i = 0](const Vec<2>& x) mutable { r_[i++] = x[0]; });
     }
 
     /// V = ∫ r dA, g_i = ∫ B_i r dA, and h_i = ∫ N_i dA: what N_i / r gives over the volume.

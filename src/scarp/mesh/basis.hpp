@@ -68,10 +68,10 @@ struct Simplex {
    public:
     Cell(const Mesh<Dim>& mesh, int e) {
       const auto n = mesh.element_nodes(e);
-      low_ = mesh.nodes[n[0]];
+      low_ = mesh.node(n[0]);
       std::array<Vec<Dim>, Dim> J;
       for (int j = 0; j < Dim; ++j) {
-        for (int k = 0; k < Dim; ++k) J[j][k] = mesh.nodes[n[k + 1]][j] - low_[j];
+        for (int k = 0; k < Dim; ++k) J[j][k] = mesh.node(n[k + 1])[j] - low_[j];
       }
       det_ = inverse(J, inverse_);
       for (int j = 0; j < Dim; ++j) {
@@ -171,7 +171,7 @@ struct Box {
    public:
     Cell(const Mesh<Dim>& mesh, int e) {
       const auto n = mesh.element_nodes(e);
-      for (int i = 0; i < nodes; ++i) corner_[i] = mesh.nodes[n[i]].data();
+      for (int i = 0; i < nodes; ++i) corner_[i] = mesh.lists.nodes[n[i]].data();
     }
 
     /// Newton's method from xi, the local coordinates of a point of the element not far from x. Convergence is

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 #include "scarp/base/error.hpp"
 #include "scarp/mesh/build.hpp"
@@ -13,12 +13,15 @@
 namespace scarp {
 namespace {
 
+/// The numbers of elements and of nodes, which are ints.
+struct Counts {
+  int elements, nodes;
+};
+
 template <int Dim>
-void check(const Vec<Dim>& origin, const Vec<Dim>& size, const std::array<int, Dim>& elements,
-           std::int64_t nodes_each) {
-  // Local nodes of all elements are counted by int.
-  const std::int64_t most_elements = std::min<std::int64_t>(most_grid_elements, 2'000'000'000 / nodes_each);
-  std::int64_t total = 1;
+Counts checked_counts(const Vec<Dim>& origin, const Vec<Dim>& size, const std::array<int, Dim>& elements,
+                      GridFunctions functions) {
+  std::int64_t element_count = 1, node_count = 1;
   for (int k = 0; k < Dim; ++k) {
     const char axis = "xyz"[k];
     if (!std::isfinite(origin[k]))
@@ -35,25 +38,16 @@ void check(const Vec<Dim>& origin, const Vec<Dim>& size, const std::array<int, D
       throw InputError(fmt::format("the grid's elements are too small beside its coordinates in {}", axis),
                        fmt::format("elements of {} m at coordinates up to {} m", spacing, origin[k] + size[k]),
                        "use fewer elements or an origin nearer to zero");
-    total *= elements[k];
-    if (total > most_elements)
-      throw InputError(fmt::format("the grid may have at most {} elements", most_elements),
-                       fmt::format("{}", fmt::join(elements, " x ")), "use larger elements");
+    element_count *= elements[k];
+    node_count *= functions_along(functions, elements[k]);
+    if (std::max(element_count, node_count) > most_grid_numbers)
+      throw InputError(
+          fmt::format("the grid may have at most {} elements and as many nodes, which are numbered in 32 bits",
+                      most_grid_numbers),
+          fmt::format("{} elements", fmt::join(elements, " x ")),
+          "take larger elements, or a grid that ends nearer to the soil");
   }
-}
-
-/// Calls f with each place of a lattice of so many along each axis, x fastest.
-template <int Dim, class F>
-void for_lattice(const std::array<int, Dim>& counts, F&& f) {
-  std::array<int, Dim> at{};
-  while (true) {
-    f(at);
-    int k = 0;
-    while (++at[k] == counts[k]) {
-      at[k] = 0;
-      if (++k == Dim) return;
-    }
-  }
+  return {static_cast<int>(element_count), static_cast<int>(node_count)};
 }
 
 /// Place of function i along an axis, in elements from the origin: a line, or the mean of two inner knots (Greville).
@@ -61,54 +55,29 @@ double place_along(GridFunctions functions, int n, int i) {
   return functions == GridFunctions::b_spline ? std::clamp(i - 0.5, 0.0, static_cast<double>(n)) : i;
 }
 
-/// The first function that element `at` touches along an axis, beyond the grid if negative, and how many.
-struct Touched {
-  int first, count;
-};
-Touched touched_along(GridFunctions functions, int at) {
-  switch (functions) {
-    case GridFunctions::gimp:
-      return {at - 1, 4};
-    case GridFunctions::b_spline:
-      return {at, 3};
-    default:
-      return {at, 2};
+/// The nodes on the first or last line across an axis, ascending.
+template <int Dim>
+std::vector<int> side_of(const Grid<Dim>& grid, int axis, bool last) {
+  std::array<int, Dim> line{}, end;
+  for (int k = 0; k < Dim; ++k) end[k] = static_cast<int>(grid.lines[k].size());
+  if (last) line[axis] = end[axis] - 1;
+  end[axis] = line[axis] + 1;
+  const int first = line[axis];
+  std::vector<int> nodes;
+  nodes.reserve(static_cast<std::size_t>(grid.node_count) / grid.lines[axis].size());
+  while (true) {
+    nodes.push_back(grid.node_at(line));
+    int k = 0;
+    while (++line[k] >= end[k]) {
+      line[k] = k == axis ? first : 0;
+      if (++k == Dim) return nodes;
+    }
   }
 }
 
-/// Adds the local nodes of element `at`, x fastest; those of linear functions in the order of their element type.
 template <int Dim>
-void add_local_nodes(const Grid<Dim>& grid, const std::array<int, Dim>& lines, const std::array<int, Dim>& at,
-                     std::vector<int>& connectivity) {
-  std::array<Touched, Dim> touched;
-  std::array<int, Dim> counts;
-  for (int k = 0; k < Dim; ++k) {
-    touched[k] = touched_along(grid.functions, at[k]);
-    counts[k] = touched[k].count;
-  }
-  const auto first = connectivity.size();
-  for_lattice<Dim>(counts, [&](const std::array<int, Dim>& i) {
-    int node = 0;
-    for (int k = Dim - 1; k >= 0; --k) node = node * lines[k] + std::clamp(touched[k].first + i[k], 0, lines[k] - 1);
-    connectivity.push_back(node);
-  });
-  if (grid.functions != GridFunctions::linear) return;
-  for (auto face = first; face < connectivity.size(); face += 4)
-    std::swap(connectivity[face + 2], connectivity[face + 3]);
-}
-
-/// The functions at the ends of open knots are narrower than the others. With lumped mass the largest eigenvalue of a
-/// free end is 5.4 c²/h² (1.5 between inner cells, 4 with linear functions; docs/theory.md), and the size of the
-/// elements there is what has the same critical time step in a linear mesh.
-template <int Dim>
-void shorten_side_elements(Mesh<Dim>& mesh) {
-  const double shorter = std::sqrt(4 / 5.4);
-  for (int e = 0; e < mesh.element_count(); ++e) {
-    const auto at = mesh.grid->cell(e);
-    bool at_side = false;
-    for (int k = 0; k < Dim; ++k) at_side = at_side || at[k] == 0 || at[k] + 1 == mesh.grid->elements[k];
-    if (at_side) mesh.size[e] *= shorter;
-  }
+void add_sides(Mesh<Dim>& mesh) {
+  for (const auto& [name, axis, last] : sides_of_box<Dim>) mesh.node_sets[name] = side_of(*mesh.grid, axis, last);
 }
 
 }  // namespace
@@ -123,37 +92,27 @@ int local_functions_along(GridFunctions functions) {
 template <int Dim>
 Mesh<Dim> make_grid(const std::type_identity_t<Vec<Dim>>& origin, const std::type_identity_t<Vec<Dim>>& size,
                     const std::type_identity_t<std::array<int, Dim>>& elements, GridFunctions functions) {
-  std::size_t nodes_each = 1;
-  for (int k = 0; k < Dim; ++k) nodes_each *= static_cast<std::size_t>(local_functions_along(functions));
-  check<Dim>(origin, size, elements, static_cast<std::int64_t>(nodes_each));
-  std::array<int, Dim> lines;  // of nodes along each axis
-  std::size_t element_count = 1, node_count = 1;
+  const Counts counts = checked_counts<Dim>(origin, size, elements, functions);
   Mesh<Dim> mesh;
-  mesh.grid = Grid<Dim>{origin, {}, elements, functions, {}};
+  auto& grid = mesh.grid.emplace();
+  grid.origin = origin;
+  grid.elements = elements;
+  grid.functions = functions;
+  grid.element_count = counts.elements;
+  grid.node_count = counts.nodes;
   for (int k = 0; k < Dim; ++k) {
-    lines[k] = functions_along(functions, elements[k]);
-    mesh.grid->spacing[k] = size[k] / elements[k];
-    mesh.grid->per_spacing[k] = 1 / mesh.grid->spacing[k];
-    element_count *= elements[k];
-    node_count *= lines[k];
-  }
-  mesh.nodes.reserve(node_count);
-  for_lattice<Dim>(lines, [&](const std::array<int, Dim>& at) {
+    const int lines = functions_along(functions, elements[k]);
+    grid.spacing[k] = size[k] / elements[k];
+    grid.per_spacing[k] = 1 / grid.spacing[k];
+    grid.lines[k].reserve(lines);
     // i * size / n, not i * spacing: the last line then lies on the box's side to the last bit.
-    Vec<Dim> x;
-    for (int k = 0; k < Dim; ++k) x[k] = origin[k] + place_along(functions, elements[k], at[k]) * size[k] / elements[k];
-    mesh.nodes.push_back(x);
-  });
-  mesh.types.assign(element_count, Dim == 2 ? ElementType::Q4 : ElementType::H8);
-  mesh.offsets.reserve(element_count + 1);
-  mesh.offsets.push_back(0);
-  mesh.connectivity.reserve(element_count * nodes_each);
-  for_lattice<Dim>(elements, [&](const std::array<int, Dim>& at) {
-    add_local_nodes<Dim>(*mesh.grid, lines, at, mesh.connectivity);
-    mesh.offsets.push_back(static_cast<int>(mesh.connectivity.size()));
-  });
-  complete(mesh);
-  if (functions == GridFunctions::b_spline) shorten_side_elements(mesh);
+    for (int i = 0; i < lines; ++i)
+      grid.lines[k].push_back(origin[k] + place_along(functions, elements[k], i) * size[k] / elements[k]);
+    if (k + 1 == Dim) break;
+    grid.by_elements[k] = WholeDivision(elements[k]);
+    grid.by_lines[k] = WholeDivision(lines);
+  }
+  add_sides(mesh);
   return mesh;
 }
 

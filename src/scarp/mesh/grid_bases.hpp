@@ -112,7 +112,7 @@ struct GridLinear {
   class Cell {
    public:
     Cell(const Mesh<Dim>& mesh, int e)
-        : low_(mesh.nodes[mesh.connectivity[static_cast<std::size_t>(e) * nodes]]),
+        : low_(mesh.grid->crossing(mesh.grid->cell(e))),  // a corner's lines are numbered as its cell
           spacing_(mesh.grid->spacing),
           inverse_(mesh.grid->per_spacing) {}
 

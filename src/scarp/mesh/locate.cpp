@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "scarp/mesh/build.hpp"
+
 namespace scarp {
 namespace {
 
@@ -14,15 +16,15 @@ struct Bounds {
 template <int Dim>
 std::vector<Bounds<Dim>> boxes_with_margin(const Mesh<Dim>& mesh, double margin) {
   std::vector<Bounds<Dim>> boxes;
-  boxes.reserve(mesh.types.size());
+  boxes.reserve(mesh.element_count());
   for (int e = 0; e < mesh.element_count(); ++e) {
     const auto nodes = mesh.element_nodes(e);
-    Bounds<Dim> box{mesh.nodes[nodes[0]], mesh.nodes[nodes[0]]};
+    Bounds<Dim> box{mesh.node(nodes[0]), mesh.node(nodes[0])};
     double extent = 0;
     for (int k = 0; k < Dim; ++k) {
       for (int node : nodes) {
-        box.low[k] = std::min(box.low[k], mesh.nodes[node][k]);
-        box.high[k] = std::max(box.high[k], mesh.nodes[node][k]);
+        box.low[k] = std::min(box.low[k], mesh.node(node)[k]);
+        box.high[k] = std::max(box.high[k], mesh.node(node)[k]);
       }
       extent = std::max(extent, box.high[k] - box.low[k]);
     }
@@ -57,7 +59,7 @@ double outside_of(const Vec<3>& x, const std::array<Vec<3>, Corners>& face) {
 /// coordinates it means the same in elements of any size and shape, so it can say which of several is the nearest.
 template <int Dim>
 double distance(const Mesh<Dim>& mesh, int e, const Vec<Dim>& x) {
-  return with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
+  return with_shape<Dim>(mesh.type_of(e), [&]<class Shape>(Shape) {
     const NodePositions<Shape> x_nodes = node_positions<Shape>(mesh, e);
     double farthest = 0;
     for (const auto& nodes : Shape::sides) {
@@ -73,10 +75,7 @@ double distance(const Mesh<Dim>& mesh, int e, const Vec<Dim>& x) {
 
 template <int Dim>
 Locator<Dim>::Locator(const Mesh<Dim>& mesh) : mesh_(&mesh) {
-  double farthest = 0, smallest = std::numeric_limits<double>::infinity();
-  for (const Vec<Dim>& x : mesh.nodes)
-    for (double coordinate : x) farthest = std::max(farthest, std::abs(coordinate));
-  for (double size : mesh.size) smallest = std::min(smallest, size);
+  const double farthest = largest_coordinate(mesh), smallest = least_size(mesh);
   tolerance_ = std::clamp(8 * std::numeric_limits<double>::epsilon() * farthest / smallest, 1e-10, 1e-6);
   if (mesh.grid) {
     for (int k = 0; k < Dim; ++k) inverse_spacing_[k] = 1 / mesh.grid->spacing[k];
@@ -97,7 +96,7 @@ void Locator<Dim>::find_outer_sides() {
   std::vector<Corner> all;
   for (int e = 0; e < mesh_->element_count(); ++e) {
     const auto node = mesh_->element_nodes(e);
-    with_shape<Dim>(mesh_->types[e], [&]<class Shape>(Shape) {
+    with_shape<Dim>(mesh_->type_of(e), [&]<class Shape>(Shape) {
       for (const auto& local : Shape::sides) {
         const int side = side_of<Shape>(local), n = static_cast<int>(local.size());
         for (int first = 0; first < (n == Dim ? 1 : n); ++first) {
@@ -110,7 +109,7 @@ void Locator<Dim>::find_outer_sides() {
     });
   }
   std::sort(all.begin(), all.end(), [](const Corner& a, const Corner& b) { return a.nodes < b.nodes; });
-  std::vector<std::uint8_t> inner(mesh_->types.size(), 0);
+  std::vector<std::uint8_t> inner(mesh_->element_count(), 0);
   for (std::size_t i = 0; i + 1 < all.size(); ++i) {
     if (all[i].nodes != all[i + 1].nodes || all[i].element == all[i + 1].element) continue;
     for (const auto& corner : {all[i], all[i + 1]}) {
@@ -236,7 +235,7 @@ Location<Dim> Locator<Dim>::search_all(const Vec<Dim>& x, int& steps) const {
 template <int Dim>
 void Locator<Dim>::prefer_lowest(const Vec<Dim>& x, Location<Dim>& found) const {
   const double beyond =
-      with_shape<Dim>(mesh_->types[found.element], [&]<class Shape>(Shape) { return Shape::beyond(found.xi); });
+      with_shape<Dim>(mesh_->type_of(found.element), [&]<class Shape>(Shape) { return Shape::beyond(found.xi); });
   // Heights of neighbours may differ much, and with them what is near; a wide net costs little.
   if (beyond < -1e-4) return;
   for (int e : mesh_->elements_around(found.element)) {

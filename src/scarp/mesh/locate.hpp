@@ -115,7 +115,7 @@ class Locator {
 
   /// How far x is beyond element e's boundary (NaN when x is), and its local coordinates there.
   double examine(int e, const Vec<Dim>& x, Vec<Dim>& xi) const {
-    return with_shape<Dim>(mesh_->types[e], [&]<class Shape>(Shape) {
+    return with_shape<Dim>(mesh_->type_of(e), [&]<class Shape>(Shape) {
       xi = Shape::local_coordinates(node_positions<Shape>(*mesh_, e), x);
       return Shape::beyond(xi);
     });

@@ -13,11 +13,11 @@ constexpr int levels = 20;
 
 template <int Dim>
 std::vector<Vec<Dim>> centres(const Mesh<Dim>& mesh) {
-  std::vector<Vec<Dim>> all(mesh.types.size());
+  std::vector<Vec<Dim>> all(mesh.element_count());
   for (int e = 0; e < mesh.element_count(); ++e) {
     const auto nodes = mesh.element_nodes(e);
     for (int node : nodes)
-      for (int k = 0; k < Dim; ++k) all[e][k] += mesh.nodes[node][k] / static_cast<double>(nodes.size());
+      for (int k = 0; k < Dim; ++k) all[e][k] += mesh.node(node)[k] / static_cast<double>(nodes.size());
   }
   return all;
 }
@@ -37,7 +37,7 @@ std::vector<int> elements_along_curve(const Mesh<Dim>& mesh) {
   // decide.
   const double margin = 0.0137 * extent, cells = (1u << levels) / (extent > 0 ? 1.03 * extent : 1.0);
   std::vector<std::pair<std::uint64_t, int>> places;
-  places.reserve(mesh.types.size());
+  places.reserve(mesh.element_count());
   for (int e = 0; e < mesh.element_count(); ++e) {
     std::array<std::uint32_t, Dim> cell;
     for (int k = 0; k < Dim; ++k) cell[k] = static_cast<std::uint32_t>((centre[e][k] - low[k] + margin) * cells);
@@ -54,20 +54,20 @@ std::vector<int> elements_along_curve(const Mesh<Dim>& mesh) {
 
 template <int Dim>
 void order_along_curve(Mesh<Dim>& mesh) {
-  if (mesh.types.empty()) return;
+  if (mesh.lists.types.empty()) return;
   Mesh<Dim> sorted;
-  std::vector<int> number(mesh.nodes.size(), -1);
-  sorted.offsets.push_back(0);
+  std::vector<int> number(mesh.node_count(), -1);
+  sorted.lists.offsets.push_back(0);
   for (int e : elements_along_curve(mesh)) {
     for (int node : mesh.element_nodes(e)) {
       if (number[node] < 0) {
         number[node] = sorted.node_count();
-        sorted.nodes.push_back(mesh.nodes[node]);
+        sorted.lists.nodes.push_back(mesh.node(node));
       }
-      sorted.connectivity.push_back(number[node]);
+      sorted.lists.connectivity.push_back(number[node]);
     }
-    sorted.types.push_back(mesh.types[e]);
-    sorted.offsets.push_back(static_cast<int>(sorted.connectivity.size()));
+    sorted.lists.types.push_back(mesh.type_of(e));
+    sorted.lists.offsets.push_back(static_cast<int>(sorted.lists.connectivity.size()));
   }
   for (const auto& [name, set] : mesh.node_sets) {
     std::vector<int>& renumbered = sorted.node_sets[name];

@@ -33,7 +33,7 @@ template <int Dim>
 std::vector<Incidence<2>> edges_of(const Mesh<Dim>& mesh) {
   std::vector<Incidence<2>> edges;
   for (int e = 0; e < mesh.element_count(); ++e) {
-    if (!is_simplex(mesh.types[e])) continue;
+    if (!is_simplex(mesh.type_of(e))) continue;
     const auto n = mesh.element_nodes(e);
     for (int i = 0; i <= Dim; ++i) {
       for (int j = 0; j < i; ++j) edges.push_back({{std::min(n[i], n[j]), std::max(n[i], n[j])}, e});
@@ -47,7 +47,7 @@ template <int Dim>
 std::vector<Incidence<Dim>> sides_of(const Mesh<Dim>& mesh) {
   std::vector<Incidence<Dim>> sides;
   for (int e = 0; e < mesh.element_count(); ++e) {
-    if (!is_simplex(mesh.types[e])) continue;
+    if (!is_simplex(mesh.type_of(e))) continue;
     const auto n = mesh.element_nodes(e);
     for (int left_out = 0; left_out <= Dim; ++left_out) {
       Incidence<Dim> side{{}, e};
@@ -65,7 +65,7 @@ template <int Dim>
 double length2(const Mesh<Dim>& mesh, const std::array<int, 2>& edge) {
   double sum = 0;
   for (int j = 0; j < Dim; ++j) {
-    const double d = mesh.nodes[edge[1]][j] - mesh.nodes[edge[0]][j];
+    const double d = mesh.node(edge[1])[j] - mesh.node(edge[0])[j];
     sum += d * d;
   }
   return sum;
@@ -121,7 +121,7 @@ void join_left_over(const Mesh<Dim>& mesh, Assigned& assigned) {
     }
   });
   for (int e = 0; e < mesh.element_count(); ++e) {
-    if (!is_simplex(mesh.types[e]) || assigned.patch[e] >= 0) continue;
+    if (!is_simplex(mesh.type_of(e)) || assigned.patch[e] >= 0) continue;
     int smallest = -1;
     for (const int other : beside[e]) {
       const int its = assigned.patch[other];
@@ -135,8 +135,8 @@ void join_left_over(const Mesh<Dim>& mesh, Assigned& assigned) {
 
 template <int Dim>
 Patches::Patches(const Mesh<Dim>& mesh) {
-  if (std::none_of(mesh.types.begin(), mesh.types.end(), is_simplex)) return;
-  Assigned assigned{std::vector<int>(mesh.types.size(), -1), {}};
+  if (std::none_of(mesh.lists.types.begin(), mesh.lists.types.end(), is_simplex)) return;
+  Assigned assigned{std::vector<int>(mesh.element_count(), -1), {}};
   take_elements_around_edges(mesh, assigned);
   join_left_over(mesh, assigned);
   for (const int size : assigned.sizes) begin_.push_back(begin_.back() + size);

@@ -140,9 +140,8 @@ constexpr int side_of(const std::array<int, n>& local) {
 /// Positions of the nodes of element e, which must be of this shape [m].
 template <class Shape>
 NodePositions<Shape> node_positions(const Mesh<Shape::dim>& mesh, int e) {
-  const int* node = mesh.connectivity.data() + mesh.offsets[e];
   NodePositions<Shape> x;
-  for (int i = 0; i < Shape::nodes; ++i) x[i] = mesh.nodes[node[i]];
+  mesh.for_local_positions(e, [&, i = 0](const Vec<Shape::dim>& x_i) mutable { x[i++] = x_i; });
   return x;
 }
 

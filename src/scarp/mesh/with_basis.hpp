@@ -39,7 +39,7 @@ template <int Dim, class F>
   }
   for (int slot = first; slot < last; ++slot) {
     const int e = elements[slot];
-    with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) { f(Linear<Shape>{}, slot, e); });
+    with_shape<Dim>(mesh.type_of(e), [&]<class Shape>(Shape) { f(Linear<Shape>{}, slot, e); });
   }
 }
 

@@ -19,11 +19,11 @@ bool count_points(std::vector<Block<Dim>>& blocks, const ChunkOfElement& chunk_o
     block.begin.assign(static_cast<std::size_t>(active.size()) + 1, 0);
     int* count = block.begin.data() + 1;
     for (const int e : block.points.element) {
-      int& slot = active.slot[e];
+      const int slot = active.slot[e];
       if (slot >= 0) [[likely]] {
         ++count[slot];
       } else if (slot == empty) {
-        slot = found;
+        active.slot.set(e, found);
         active.fresh.push_back({chunk_of(e), e});
       }
     }
@@ -44,7 +44,7 @@ void update_active(const std::vector<Block<Dim>>& blocks, ActiveElements& active
       element[kept] = element[s];
       chunk[kept++] = chunk[s];
     } else {
-      slot[element[s]] = empty;
+      slot.set(element[s], empty);
     }
   }
   std::sort(fresh.begin(), fresh.end());
@@ -58,7 +58,7 @@ void update_active(const std::vector<Block<Dim>>& blocks, ActiveElements& active
     chunk[to - 1] = old ? chunk[from - 1] : fresh[left - 1].chunk;
     --(old ? from : left);
   }
-  for (int s = 0; s < active.size(); ++s) slot[element[s]] = s;
+  for (int s = 0; s < active.size(); ++s) slot.set(element[s], s);
 }
 
 /// Counting sort of a block's points by the slots of their elements, once begin[slot + 1] are the numbers of these. A
@@ -71,9 +71,9 @@ void sort_by_slot(Block<Dim>& block, ActiveElements& active) {
   active.end.assign(begin.begin(), begin.end() - 1);
   block.order.resize(static_cast<std::size_t>(block.size()));
   int *order = block.order.data(), *end = active.end.data();
-  const int *element = block.points.element.data(), *id = block.points.id.data(), *slot_of = active.slot.data();
+  const int *element = block.points.element.data(), *id = block.points.id.data();
   for (int i = 0; i < block.size(); ++i) {
-    const int slot = slot_of[element[i]], first = begin[slot];
+    const int slot = active.slot[element[i]], first = begin[slot];
     int at = end[slot]++;
     for (; at > first && id[order[at - 1]] > id[i]; --at) order[at] = order[at - 1];
     order[at] = i;
@@ -92,7 +92,7 @@ void ActiveElements::reserve(std::size_t elements) {
 template <int Dim>
 bool sort_by_element(std::vector<Block<Dim>>& blocks, int element_count, const ChunkOfElement& chunk_of,
                      ActiveElements& active) {
-  active.slot.resize(static_cast<std::size_t>(element_count), empty);
+  active.slot.resize(static_cast<std::size_t>(element_count));
   const bool same = count_points(blocks, chunk_of, active);
   if (!same) {
     update_active(blocks, active);

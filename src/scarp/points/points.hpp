@@ -13,6 +13,7 @@
 
 #include "scarp/base/column.hpp"
 #include "scarp/base/vec.hpp"
+#include "scarp/base/zero_pages.hpp"
 #include "scarp/material/models.hpp"
 #include "scarp/material/nonlocal.hpp"
 #include "scarp/tensor/sym.hpp"
@@ -202,7 +203,7 @@ struct ActiveElements {
 
   std::vector<int> element;          ///< of each slot
   std::vector<std::uint64_t> chunk;  ///< of each slot
-  std::vector<int> slot;             ///< of each element of the mesh; -1 where it holds no point
+  MostlyNone<int> slot;              ///< of each element of the mesh; -1 where it holds no point
   // Scratch of sort_by_element():
   std::vector<Place> fresh;  ///< elements that were not active before
   std::vector<int> end;      ///< of each slot: where its next point goes

@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "scarp/base/error.hpp"
 #include "scarp/base/log.hpp"
+#include "scarp/base/zero_pages.hpp"
+#include "scarp/mesh/near.hpp"
 
 namespace scarp::run {
 namespace {
@@ -16,12 +20,12 @@ template <int Dim>
 double edge(const Mesh<Dim>& mesh, int e) {
   if (mesh.grid) return *std::min_element(mesh.grid->spacing.begin(), mesh.grid->spacing.end());
   const auto nodes = mesh.element_nodes(e);
-  if (nodes.size() != Dim + 1) return mesh.size[e];
+  if (nodes.size() != Dim + 1) return mesh.size_of(e);
   double sum = 0;
   for (std::size_t a = 0; a < nodes.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       double d2 = 0;
-      for (int j = 0; j < Dim; ++j) d2 += std::pow(mesh.nodes[nodes[a]][j] - mesh.nodes[nodes[b]][j], 2);
+      for (int j = 0; j < Dim; ++j) d2 += std::pow(mesh.node(nodes[a])[j] - mesh.node(nodes[b])[j], 2);
       sum += std::sqrt(d2);
     }
   }
@@ -38,7 +42,7 @@ Vec<Dim> middle_of(const Mesh<Dim>& mesh, int e) {
   }
   const auto nodes = mesh.element_nodes(e);
   for (const int n : nodes) {
-    for (int k = 0; k < Dim; ++k) x[k] += mesh.nodes[n][k] / static_cast<double>(nodes.size());
+    for (int k = 0; k < Dim; ++k) x[k] += mesh.node(n)[k] / static_cast<double>(nodes.size());
   }
   return x;
 }
@@ -52,20 +56,20 @@ struct Hollow {
 
   Hollow(const Region<Dim>& region, double spacing, const Body<Dim>& body) {
     const BoxOf<Dim> box = bounds(region);
-    std::vector<bool> holds(body.mesh->types.size(), false);
+    ZeroPages<std::uint8_t> holds(body.mesh->element_count());
     for (const auto& block : body.blocks()) {
-      for (const int e : block.points.element) holds[e] = true;
+      for (const int e : block.points.element) holds[e] = 1;
     }
-    for (int e = 0; e < body.mesh->element_count(); ++e) {
+    for_elements_near(*body.mesh, box, [&](int e) {
       const Vec<Dim> x = middle_of(*body.mesh, e);
       bool near = true;
       for (int k = 0; k < Dim; ++k) near = near && x[k] >= box.low[k] && x[k] <= box.high[k];
-      if (!near || !contains(region, x)) continue;
+      if (!near || !contains(region, x)) return;
       ++elements;
-      if (holds[e]) continue;
+      if (holds[e]) return;
       ++empty;
       if (const double a = edge(*body.mesh, e); a < spacing) too_small.push_back(a);
-    }
+    });
   }
 
   /// A few small elements where the mesh is fitted to a corner do not count.
@@ -85,17 +89,17 @@ double small_one(std::vector<double> edges) {
 
 template <int Dim>
 std::string points_per_element(const Body<Dim>& body) {
-  std::vector<int> counts(body.mesh->types.size(), 0);
+  ZeroPages<int> counts(body.mesh->element_count());
+  std::vector<int> filled;
   for (const auto& block : body.blocks()) {
-    for (const int e : block.points.element) ++counts[e];
+    for (const int e : block.points.element) {
+      if (counts[e]++ == 0) filled.push_back(e);
+    }
   }
-  int least = 0, filled = 0;
-  for (const int count : counts) {
-    if (count == 0) continue;
-    least = filled++ == 0 ? count : std::min(least, count);
-  }
-  return fmt::format("{} in {} elements, {:.3g} each on average, {} at least", body.point_count(), filled,
-                     filled > 0 ? static_cast<double>(body.point_count()) / filled : 0.0, least);
+  int least = filled.empty() ? 0 : std::numeric_limits<int>::max();
+  for (const int e : filled) least = std::min(least, counts[e]);
+  return fmt::format("{} in {} elements, {:.3g} each on average, {} at least", body.point_count(), filled.size(),
+                     filled.empty() ? 0.0 : body.point_count() / static_cast<double>(filled.size()), least);
 }
 
 template <int Dim>

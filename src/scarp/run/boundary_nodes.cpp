@@ -6,18 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scarp/mesh/build.hpp"
+#include "scarp/mesh/near.hpp"
 #include "scarp/run/cut_elements.hpp"
 
 namespace scarp::run {
-
-template <int Dim>
-double largest_coordinate(const Mesh<Dim>& mesh) {
-  double largest = 0;
-  for (const auto& x : mesh.nodes) {
-    for (const double coordinate : x) largest = std::max(largest, std::abs(coordinate));
-  }
-  return largest;
-}
 
 namespace {
 
@@ -25,27 +18,31 @@ namespace {
 std::vector<int> nodes_on(const Mesh<2>& mesh, const std::array<Vec<2>, 2>& line) {
   const double dx = line[1][0] - line[0][0], dy = line[1][1] - line[0][1], length2 = dx * dx + dy * dy;
   const double tolerance = nearness(mesh, line);
+  Box box;
+  for (int k = 0; k < 2; ++k) {  // with room for what its own corners round off
+    const auto [low, high] = std::minmax(line[0][k], line[1][k]);
+    box.low[k] = low - 2 * tolerance;
+    box.high[k] = high + 2 * tolerance;
+  }
   std::vector<int> nodes;
-  for (int n = 0; n < mesh.node_count(); ++n) {
-    const double rx = mesh.nodes[n][0] - line[0][0], ry = mesh.nodes[n][1] - line[0][1];
+  for_nodes_in(mesh, box, [&](int n, const Vec<2>& x) {
+    const double rx = x[0] - line[0][0], ry = x[1] - line[0][1];
     const double t = std::clamp((rx * dx + ry * dy) / length2, 0.0, 1.0);
     if (std::hypot(rx - t * dx, ry - t * dy) <= tolerance) nodes.push_back(n);
-  }
+  });
   return nodes;
 }
 
 /// Nodes in the box, within round-off of the mesh's size.
 std::vector<int> nodes_in(const Mesh<3>& mesh, const BoxOf<3>& box) {
   const double tolerance = round_off * largest_coordinate(mesh);
-  std::vector<int> nodes;
-  for (int n = 0; n < mesh.node_count(); ++n) {
-    bool inside = true;
-    for (int j = 0; j < 3; ++j) {
-      const double x = mesh.nodes[n][j];
-      inside = inside && x >= box.low[j] - tolerance && x <= box.high[j] + tolerance;
-    }
-    if (inside) nodes.push_back(n);
+  BoxOf<3> wider = box;
+  for (int j = 0; j < 3; ++j) {
+    wider.low[j] -= tolerance;
+    wider.high[j] += tolerance;
   }
+  std::vector<int> nodes;
+  for_nodes_in(mesh, wider, [&](int n, const Vec<3>&) { nodes.push_back(n); });
   return nodes;
 }
 
@@ -104,16 +101,6 @@ std::vector<int> nodes_in_place(const Mesh<Dim>& mesh, const input::BoundaryInpu
                      Dim == 2 ? "give a line along edges of elements, or name a node set with nodes = \"...\""
                               : "give a box that holds nodes, or name a node set with nodes = \"...\"",
                      input.position);
-  if (const auto cut = cut_element(mesh, ends))
-    throw InputError(fmt::format("the {} of this boundary passes through elements, and holds nothing between its "
-                                 "nodes there",
-                                 kind),
-                     fmt::format("{} nodes on {}, an element cut at ({:.6g})", nodes.size(), place_of<Dim>(input),
-                                 fmt::join(*cut, ", ")),
-                     fmt::format("give a {} along {} of elements, or draw it in the geometry before meshing, as a "
-                                 "Physical {}, and name that with nodes = \"...\"",
-                                 kind, Dim == 2 ? "edges" : "faces", Dim == 2 ? "Curve" : "Surface"),
-                     input.position);
   return nodes;
 }
 
@@ -128,6 +115,23 @@ std::vector<int> boundary_nodes(const Mesh<Dim>& mesh, const input::BoundaryInpu
   for (const auto& [name, nodes] : mesh.node_sets) names.push_back('"' + name + '"');
   throw InputError("the mesh has no such node set", '"' + *input.nodes + '"',
                    fmt::format("choose one of {}", fmt::join(names, ", ")), input.position);
+}
+
+template <int Dim>
+void check_boundary(const Mesh<Dim>& mesh, const input::BoundaryInput& input) {
+  const auto nodes = boundary_nodes(mesh, input);
+  if (input.nodes) return;
+  constexpr const char* kind = Dim == 2 ? "line" : "box";
+  const auto cut = cut_element(mesh, ends_of<Dim>(input));
+  if (!cut) return;
+  throw InputError(
+      fmt::format("the {} of this boundary passes through elements, and holds nothing between its nodes there", kind),
+      fmt::format("{} nodes on {}, an element cut at ({:.6g})", nodes.size(), place_of<Dim>(input),
+                  fmt::join(*cut, ", ")),
+      fmt::format("give a {} along {} of elements, or draw it in the geometry before meshing, as a Physical {}, and "
+                  "name that with nodes = \"...\"",
+                  kind, Dim == 2 ? "edges" : "faces", Dim == 2 ? "Curve" : "Surface"),
+      input.position);
 }
 
 template <int Dim>
@@ -149,10 +153,10 @@ std::vector<std::string> describe_boundaries(const Mesh<Dim>& mesh,
   return lines;
 }
 
-template double largest_coordinate(const Mesh<2>&);
-template double largest_coordinate(const Mesh<3>&);
 template std::vector<int> boundary_nodes(const Mesh<2>&, const input::BoundaryInput&);
 template std::vector<int> boundary_nodes(const Mesh<3>&, const input::BoundaryInput&);
+template void check_boundary(const Mesh<2>&, const input::BoundaryInput&);
+template void check_boundary(const Mesh<3>&, const input::BoundaryInput&);
 template std::vector<std::string> describe_boundaries(const Mesh<2>&, const std::vector<input::BoundaryInput>&);
 template std::vector<std::string> describe_boundaries(const Mesh<3>&, const std::vector<input::BoundaryInput>&);
 

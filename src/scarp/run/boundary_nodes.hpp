@@ -10,14 +10,15 @@ namespace scarp::run {
 
 constexpr double round_off = 1e-9;  ///< of a mesh's largest coordinate: nodes this far from a place are there
 
-/// The largest coordinate in the mesh, whatever its sign.
-template <int Dim>
-double largest_coordinate(const Mesh<Dim>& mesh);
-
-/// The nodes of a boundary, ascending. Throws InputError for a set that the mesh does not have, for a place without
-/// nodes, and for a line (in space, a flat box) that passes through elements: between its nodes it would hold nothing.
+/// The nodes of a boundary, ascending. Throws InputError for a set that the mesh does not have, and for a place without
+/// nodes.
 template <int Dim>
 std::vector<int> boundary_nodes(const Mesh<Dim>& mesh, const input::BoundaryInput& input);
+
+/// Throws InputError where boundary_nodes() does, and for a line (in space, a flat box) that passes through elements:
+/// between its nodes it would hold nothing. To be asked once: it looks at the elements of the mesh.
+template <int Dim>
+void check_boundary(const Mesh<Dim>& mesh, const input::BoundaryInput& input);
 
 /// A line of text for each boundary: where it is, how many nodes it has and what it does to them.
 template <int Dim>

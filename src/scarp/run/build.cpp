@@ -9,8 +9,10 @@
 
 #include "scarp/base/error.hpp"
 #include "scarp/base/overlap.hpp"
+#include "scarp/mesh/build.hpp"
 #include "scarp/mesh/gmsh.hpp"
 #include "scarp/mesh/grid.hpp"
+#include "scarp/mesh/near.hpp"
 #include "scarp/points/fill.hpp"
 #include "scarp/points/overburden.hpp"
 #include "scarp/run/boundary_nodes.hpp"
@@ -36,8 +38,7 @@ std::unique_ptr<const Mesh<Dim>> make_mesh(const input::CaseOf<Dim>& input) {
   auto mesh = std::make_unique<Mesh<Dim>>(read_mesh(input.mesh, input.method.shape));
   mesh->axisymmetric = input.axisymmetric;
   if (!input.axisymmetric) return mesh;
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& x : mesh->nodes) least = std::min(least, x[0]);
+  const double least = bounds(*mesh).low[0];
   if (least < -round_off * largest_coordinate(*mesh)) {
     throw InputError("in a body of revolution x is the distance from the axis, and the mesh lies on its positive side",
                      fmt::format("a node at x = {:g}", least), "move the mesh, or leave out axisymmetric",
@@ -50,11 +51,10 @@ std::unique_ptr<const Mesh<Dim>> make_mesh(const input::CaseOf<Dim>& input) {
 template <int Dim>
 void hold_axis(const Mesh<Dim>& mesh, Conditions<Dim>& conditions) {
   if (!mesh.axisymmetric) return;
-  const double near = round_off * largest_coordinate(mesh);
+  auto box = bounds(mesh);
+  box.high[0] = round_off * largest_coordinate(mesh);
   std::vector<int> axis;
-  for (int n = 0; n < mesh.node_count(); ++n) {
-    if (mesh.nodes[n][0] <= near) axis.push_back(n);
-  }
+  for_nodes_in(mesh, box, [&](int n, const auto&) { axis.push_back(n); });
   fix(conditions, axis, 0);
 }
 
@@ -176,6 +176,7 @@ Body<Dim> build_body(const input::CaseOf<Dim>& input) {
         make_block(region, input.materials[region.material], fillings[r], input.axisymmetric, first_id));
     first_id += body.fields[0].blocks.back().size();
   }
+  for (const auto& boundary : input.boundaries) check_boundary(*body.mesh, boundary);
   body.conditions = make_conditions(*body.mesh, input, [](const auto&) { return true; });
   const OverburdenOf<Dim> overburden(layers, std::abs(input.gravity[Dim - 1]));
   for (std::size_t r = 0; r < input.regions.size(); ++r) {

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include "scarp/base/solid.hpp"
+#include "scarp/mesh/build.hpp"
+#include "scarp/mesh/near.hpp"
 #include "scarp/mesh/shapes.hpp"
 
 namespace scarp::run {
@@ -16,7 +19,7 @@ constexpr double slack = 1e-6;  ///< of the least height of an element: what is 
 void corners_of(const Mesh<2>& mesh, int e, Polygon& corners) {
   corners.clear();
   if (!mesh.grid) {
-    for (const int n : mesh.element_nodes(e)) corners.push_back(mesh.nodes[n]);
+    for (const int n : mesh.element_nodes(e)) corners.push_back(mesh.node(n));
     return;
   }
   const auto& grid = *mesh.grid;
@@ -78,22 +81,26 @@ Polygon section_of(const NodePositions<Shape>& x, int axis, double at, double ne
 
 double nearness(const Mesh<2>& mesh, const std::array<Vec<2>, 2>& segment) {
   const double length = std::hypot(segment[1][0] - segment[0][0], segment[1][1] - segment[0][1]);
-  return std::max(1e-9 * length, slack * *std::min_element(mesh.size.begin(), mesh.size.end()));
+  return std::max(1e-9 * length, slack * least_size(mesh));
 }
 
 std::optional<Vec<2>> cut_element(const Mesh<2>& mesh, const std::array<Vec<2>, 2>& segment) {
   const double near = nearness(mesh, segment);
   const double length = std::hypot(segment[1][0] - segment[0][0], segment[1][1] - segment[0][1]);
+  Box box;
+  for (int k = 0; k < 2; ++k) std::tie(box.low[k], box.high[k]) = std::minmax(segment[0][k], segment[1][k]);
   Polygon corners;
-  for (int e = 0; e < mesh.element_count(); ++e) {
+  std::optional<Vec<2>> cut;
+  for_elements_near(mesh, box, [&](int e) {
+    if (cut) return;
     corners_of(mesh, e, corners);
     const auto [from, to] = part_within(corners, segment, near);
-    if (!((to - from) * length > near)) continue;
+    if (!((to - from) * length > near)) return;
     const double t = 0.5 * (from + to);
-    return Vec<2>{segment[0][0] + t * (segment[1][0] - segment[0][0]),
-                  segment[0][1] + t * (segment[1][1] - segment[0][1])};
-  }
-  return {};
+    cut = Vec<2>{segment[0][0] + t * (segment[1][0] - segment[0][0]),
+                 segment[0][1] + t * (segment[1][1] - segment[0][1])};
+  });
+  return cut;
 }
 
 std::optional<Vec<3>> cut_element(const Mesh<3>& mesh, const std::array<Vec<3>, 2>& box) {
@@ -106,12 +113,12 @@ std::optional<Vec<3>> cut_element(const Mesh<3>& mesh, const std::array<Vec<3>, 
   if (mesh.grid || flat != 1) return {};
   const auto [i, j] = section_axes(axis);
   for (int e = 0; e < mesh.element_count(); ++e) {
-    const Polygon section = with_shape<3>(mesh.types[e], [&]<class Shape>(Shape) {
-      return section_of<Shape>(node_positions<Shape>(mesh, e), axis, box[0][axis], slack * mesh.size[e]);
+    const Polygon section = with_shape<3>(mesh.type_of(e), [&]<class Shape>(Shape) {
+      return section_of<Shape>(node_positions<Shape>(mesh, e), axis, box[0][axis], slack * mesh.size_of(e));
     });
     if (section.size() < 3) continue;
     const Moments part = moments(clip_to_box(section, {box[0][i], box[0][j]}, {box[1][i], box[1][j]}));
-    if (!(part.area > slack * mesh.size[e] * mesh.size[e])) continue;
+    if (!(part.area > slack * mesh.size_of(e) * mesh.size_of(e))) continue;
     Vec<3> x;
     x[axis] = box[0][axis];
     x[i] = part.centroid[0];

@@ -84,8 +84,9 @@ class Collector {
   }
 
   void flag(const std::string& name, PointFlag bit) {
-    add<std::uint8_t>(
-        name, [this_body = &body_, bit](int b, int i) { return (this_body->blocks()[b].points.flags[i] & bit) ? 1 : 0; });
+    add<std::uint8_t>(name, [this_body = &body_, bit](int b, int i) {
+      return (this_body->blocks()[b].points.flags[i] & bit) ? 1 : 0;
+    });
   }
 
   /// A symmetric tensor from Mandel components; component(block number, i, c) → double

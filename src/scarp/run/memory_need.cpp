@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scarp/base/error.hpp"
@@ -26,6 +28,20 @@ double bytes_of_point(bool affine) {
   return bytes;
 }
 
+/// Of the lines of a grid, and of the nodes of its sides: their numbers, and pages of what is fixed there. A side is
+/// pieces of nodes that follow each other.
+template <std::size_t Dim>
+double of_lines_and_sides(const std::array<double, Dim>& lines, double nodes) {
+  constexpr double page = 4096;
+  double bytes = 0, piece = 1;
+  for (const double count : lines) {
+    const double on_side = nodes / count, pages = std::min(nodes / page, on_side / piece * (1 + piece / page));
+    bytes += count * sizeof(double) + 2 * (on_side * sizeof(int) + pages * page);
+    piece *= count;
+  }
+  return bytes;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -37,21 +53,18 @@ template <int Dim>
 MemoryNeed memory_need(const input::CaseOf<Dim>& input) {
   MemoryNeed need;
   if (input.mesh.grid) {
-    const auto functions = input.method.shape;
-    double elements = 1, nodes = 1, local = 1;
+    double elements = 1, nodes = 1;
+    Vec<Dim> lines;
     for (int k = 0; k < Dim; ++k) {
+      lines[k] = functions_along(input.method.shape, input.mesh.grid->elements[k]);
       elements *= input.mesh.grid->elements[k];
-      nodes *= functions_along(functions, input.mesh.grid->elements[k]);
-      local *= local_functions_along(functions);
+      nodes *= lines[k];
     }
-    if (elements > most_grid_elements) elements = nodes = 0;  // make_grid() will say so
-    // Mesh: types, offsets, connectivity, size; ActiveElements::slot, Buffers::is_changed. Mesh::nodes, and of
-    // Conditions what is fixed and which way walls look.
-    const double bytes = sizeof(ElementType) + (1 + local + 1) * sizeof(int) + sizeof(double) + 1;
-    const double of_node = sizeof(Vec<Dim>) + 2;
-    need.grid = elements * bytes + nodes * of_node;
-    need.addresses = nodes * static_cast<double>(sizeof(Node<Dim>) + sizeof(transfer::Motion<Dim>) +
-                                                 2 * sizeof(Vec<Dim>) + sizeof(Resistance<Dim>) + 4 * sizeof(double));
+    if (std::max(elements, nodes) > most_grid_numbers) return need;  // make_grid() will say so
+    need.grid = of_lines_and_sides(lines, nodes);
+    // What an entry for each element or node is kept of costs memory where there is soil or a condition:
+    // ActiveElements::slot, Buffers::changed and is_changed; Conditions, Assembly::latest_.
+    need.addresses = elements * (2 * sizeof(int) + 1) + nodes * (2 + 2 * sizeof(double) + 2 * sizeof(int));
   }
   constexpr double of_element = Dim == 2 ? 150 : 250;  // a point's part of what a step keeps for elements, and of lists
   const double of_point = bytes_of_point<Dim>(input.method.scheme == input::SchemeName::apic) + of_element;

@@ -11,9 +11,9 @@ double expected_points(const input::RegionInputOf<Dim>& region);
 
 /// [bytes]
 struct MemoryNeed {
-  double grid = 0;       ///< arrays of the grid, and of its nodes and elements
+  double grid = 0;       ///< of the grid: its lines, and what its sides hold
   double points = 0;     ///< of all points, with their state, and what a step keeps for their elements
-  double addresses = 0;  ///< beside these two: what only nodes with soil will use of the arrays of all nodes
+  double addresses = 0;  ///< beside these two: what only elements and nodes with soil will use of the arrays of all
 };
 
 /// Of a case on a grid; of one on a mesh from a file the points only, for the mesh is there when its size is known.

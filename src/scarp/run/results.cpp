@@ -11,6 +11,7 @@
 #include "scarp/base/log.hpp"
 #include "scarp/base/version.hpp"
 #include "scarp/comm/alone.hpp"
+#include "scarp/input/kept.hpp"
 #include "scarp/io/file.hpp"
 #include "scarp/io/history.hpp"
 #include "scarp/io/pvd.hpp"
@@ -120,7 +121,7 @@ Results<Dim>::Results(const input::CaseOf<Dim>& input, const std::string& folder
   lock_ = prepare(folder);
   // The marker of a folder of results comes first.
   io::write_whole(folder_ + "/summary.json", "{\"status\": \"running\"}\n");
-  io::write_whole(folder_ + "/case.toml", input.text);
+  io::write_whole(folder_ + "/case.toml", input::kept_text(input.text, input.path, folder_));
   io::write_mesh_vtu(folder_ + "/mesh.vtu", *body.mesh);
   writers_ = std::make_unique<Writers>(folder_, history_columns<Dim>(input));
 }

@@ -39,8 +39,8 @@ std::size_t mean_gradient_row(const Mesh<Dim>& mesh) {
 /// Of each node, Σ V_e / K_e over the elements around it, which have K_e nodes.
 template <int Dim>
 Column volumes_of_nodes(const Mesh<Dim>& mesh) {
-  Column volume(mesh.nodes.size(), 0.0);
-  std::vector<int> elements(mesh.types.size());
+  Column volume(mesh.node_count(), 0.0);
+  std::vector<int> elements(mesh.element_count());
   std::iota(elements.begin(), elements.end(), 0);
   with_basis<Dim>(mesh, elements.data(), 0, mesh.element_count(), [&]<class Basis>(Basis, int, int e) {
     const typename Basis::Cell cell(mesh, e);
@@ -84,7 +84,8 @@ namespace {
 /// used costs no memory.
 template <int Dim>
 void make_room(const Body<Dim>& body, VelocityField<Dim>& field) {
-  const auto elements = std::min(body.mesh->types.size(), 4 * static_cast<std::size_t>(field.active.size()) + 1000);
+  const auto elements = std::min(static_cast<std::size_t>(body.mesh->element_count()),
+                                 4 * static_cast<std::size_t>(field.active.size()) + 1000);
   const auto row = static_cast<std::size_t>(field.assembly.row()), places = elements * row;
   const auto padded = padded_row(field.assembly.row());
   for (auto& block : field.blocks) reserve_order(block, elements);
@@ -92,6 +93,7 @@ void make_room(const Body<Dim>& body, VelocityField<Dim>& field) {
   field.assembly.reserve(elements, row);
   auto& buffers = field.buffers;
   buffers.inside.reserve(elements);
+  buffers.size.reserve(elements);
   buffers.weight.reserve(elements);
   buffers.mean_dilatation.reserve(elements);
   buffers.left.reserve(elements);
@@ -101,14 +103,14 @@ void make_room(const Body<Dim>& body, VelocityField<Dim>& field) {
     buffers.bounds.filled.reserve(elements);
     buffers.bounds.least_per_mass.reserve(elements);
   }
-  buffers.changed.reserve(body.mesh->types.size());
-  buffers.is_changed.assign(body.mesh->types.size(), 0);
+  buffers.changed.reserve(body.mesh->element_count());
+  buffers.is_changed.resize(body.mesh->element_count());
   buffers.correction.reserve(elements * buffers.correction_row);
   if (body.mesh->axisymmetric) buffers.hoop_correction.reserve(elements * padded);
   buffers.mass_matrix.reserve(elements * mass_matrix_row(field.assembly.row()));
   buffers.sums.reserve(places * transfer::node_sums<Dim>);
   buffers.momentum.reserve(places * transfer::momentum_size<Dim>);
-  const auto nodes = std::min(places, body.mesh->nodes.size());
+  const auto nodes = std::min(places, static_cast<std::size_t>(body.mesh->node_count()));
   field.nodes.reserve(nodes);
   if (!body.patches.empty()) buffers.bounds.stiffness.reserve(nodes);
 }
@@ -127,7 +129,7 @@ void prefer_full_elements(const Body<Dim>& body, VelocityField<Dim>& field) {
     std::vector<int> elements;
   };
   std::vector<OnLine> on_line;
-  std::vector<int> inside(body.mesh->types.size(), 0);
+  ZeroPages<int> inside(body.mesh->element_count());
   for (auto& block : field.blocks) {
     for (int i = 0; i < block.size(); ++i) {
       const int e = block.points.element[i];
@@ -206,9 +208,13 @@ void rebuild(const Body<Dim>& body, VelocityField<Dim>& field) {
   const auto slots = static_cast<std::size_t>(active.size()), places = field.assembly.places(),
              nodes = static_cast<std::size_t>(field.assembly.size());
   buffers.inside.resize(slots);
+  buffers.size.resize(slots);
   for (int slot = 0; slot < active.size(); ++slot) {
-    const auto around = body.mesh->elements_around(active.element[slot]);
-    buffers.inside[slot] = std::all_of(around.begin(), around.end(), [&](int e) { return active.slot[e] >= 0; });
+    const int e = active.element[slot];
+    buffers.size[slot] = body.mesh->size_of(e);
+    const auto around = body.mesh->elements_around(e);
+    buffers.inside[slot] =
+        std::all_of(around.begin(), around.end(), [&](int other) { return active.slot[other] >= 0; });
   }
   buffers.weight.assign(slots, 1.0);
   buffers.mean_dilatation.assign(slots, 0);

@@ -242,7 +242,7 @@ template <bool pic, int Dim>
     transfer::with_means<Basis>(field.buffers.mean_dilatation[slot] != 0, [&](auto averaged) {
       move_points<pic, Basis>(body, field, block, slot, e, rules, increments, at, averaged, motion, books);
     });
-    if (sharing) sharing->in_element(points_of(block, slot), body.mesh->size[e], at);
+    if (sharing) sharing->in_element(points_of(block, slot), field.buffers.size[slot], at);
   });
   book(motion.sums, books);
   books.search.own += motion.stayed;

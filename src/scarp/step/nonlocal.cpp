@@ -94,7 +94,7 @@ void with_functions(const Mesh<Dim>& mesh, int e, F&& f) {
     });
     return;
   }
-  with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
+  with_shape<Dim>(mesh.type_of(e), [&]<class Shape>(Shape) {
     using Basis = Linear<Shape>;
     const typename Basis::Cell cell(mesh, e);
     f(std::integral_constant<int, Basis::nodes>{}, [&cell](const Points<Dim>& points, int i) {

@@ -10,6 +10,7 @@
 #include "scarp/base/error.hpp"
 #include "scarp/exec/stress_update.hpp"
 #include "scarp/mesh/build.hpp"
+#include "scarp/mesh/near.hpp"
 #include "scarp/mesh/shapes.hpp"
 #include "scarp/step/phases.hpp"
 #include "scarp/transfer/node_values.hpp"
@@ -29,7 +30,7 @@ template <int Dim>
 int axis_of(const Mesh<Dim>& mesh, const std::vector<int>& nodes, double tolerance) {
   for (int j = 0; j < Dim; ++j) {
     bool flat = true;
-    for (const int n : nodes) flat = flat && std::abs(mesh.nodes[n][j] - mesh.nodes[nodes[0]][j]) <= tolerance;
+    for (const int n : nodes) flat = flat && std::abs(mesh.node(n)[j] - mesh.node(nodes[0])[j]) <= tolerance;
     if (flat) return j;
   }
   return -1;
@@ -38,23 +39,24 @@ int axis_of(const Mesh<Dim>& mesh, const std::vector<int>& nodes, double toleran
 /// The faces of elements all of whose nodes are chosen.
 template <int Dim>
 std::vector<Face<Dim>> faces_on(const Mesh<Dim>& mesh, const std::vector<int>& nodes) {
-  std::vector<char> chosen(mesh.nodes.size(), 0), on_face(mesh.nodes.size(), 0);
+  ZeroPages<char> chosen(mesh.node_count()), on_face(mesh.node_count());
   for (const int n : nodes) chosen[n] = 1;
   std::map<std::vector<int>, int> times;  // that a face is met, by its nodes in order
   std::vector<Face<Dim>> faces;
-  for (int e = 0; e < mesh.element_count(); ++e) {
-    with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
+  for_elements_near(mesh, box_around(mesh, nodes), [&](int e) {
+    const auto local = mesh.element_nodes(e);
+    with_shape<Dim>(mesh.type_of(e), [&]<class Shape>(Shape) {
       for (const auto& side : Shape::sides) {
         std::vector<int> its;
-        for (const int i : side) its.push_back(mesh.element_nodes(e)[i]);
+        for (const int i : side) its.push_back(local[i]);
         if (!std::all_of(its.begin(), its.end(), [&](int n) { return chosen[n] != 0; })) continue;
-        faces.push_back({its, e, axis_of<Dim>(mesh, its, 1e-9 * mesh.size[e])});
+        faces.push_back({its, e, axis_of<Dim>(mesh, its, 1e-9 * mesh.size_of(e))});
         std::sort(its.begin(), its.end());
         ++times[its];
         for (const int n : its) on_face[n] = 1;
       }
     });
-  }
+  });
   for (const int n : nodes) {
     bool good = on_face[n] != 0;
     for (const auto& face : faces) {
@@ -65,7 +67,7 @@ std::vector<Face<Dim>> faces_on(const Mesh<Dim>& mesh, const std::vector<int>& n
     }
     if (good) continue;
     throw InputError("an absorbing side lies on flat sides of the mesh, each across an axis",
-                     fmt::format("the node at ({:g})", fmt::join(mesh.nodes[n], ", ")),
+                     fmt::format("the node at ({:g})", fmt::join(mesh.node(n), ", ")),
                      "name a side such as nodes = \"left\", or leave absorbing out");
   }
   return faces;
@@ -74,12 +76,12 @@ std::vector<Face<Dim>> faces_on(const Mesh<Dim>& mesh, const std::vector<int>& n
 /// What the points of an element are together.
 struct Content {
   double Omega = 0, mass = 0, M = 0, G = 0;  ///< moduli times Ω
-  bool known = true;                         ///< are the moduli?
+  bool unknown = false;                      ///< the moduli, that is
 };
 
 template <int Dim>
-std::vector<Content> contents(const Body<Dim>& body, const VelocityField<Dim>& field) {
-  std::vector<Content> of_element(body.mesh->types.size());
+ZeroPages<Content> contents(const Body<Dim>& body, const VelocityField<Dim>& field) {
+  ZeroPages<Content> of_element(body.mesh->element_count());
   for (const auto& block : field.blocks) {
     const auto& points = block.points;
     for (const int i : block.order) {  // by id in each element
@@ -93,7 +95,7 @@ std::vector<Content> contents(const Body<Dim>& body, const VelocityField<Dim>& f
           const double nu = model.parameters().nu;
           its.G += points.volume[i] * M * (0.5 - nu) / (1 - nu);  // of isotropic elasticity
         } else {
-          its.known = false;
+          its.unknown = true;
         }
       });
     }
@@ -112,7 +114,7 @@ double volume_of(const Mesh<Dim>& mesh, int e) {
     const auto n = mesh.element_nodes(e);
     double volume = 0;
     for (std::size_t i = 1; i + 1 < n.size(); ++i) {
-      const auto &a = mesh.nodes[n[0]], &b = mesh.nodes[n[i]], &c = mesh.nodes[n[i + 1]];
+      const auto &a = mesh.node(n[0]), &b = mesh.node(n[i]), &c = mesh.node(n[i + 1]);
       volume += 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) * (a[0] + b[0] + c[0]) / 3;
     }
     return volume;
@@ -123,16 +125,16 @@ double volume_of(const Mesh<Dim>& mesh, int e) {
 /// ∫ N_i r.
 template <int Dim>
 double node_area(const Mesh<Dim>& mesh, const std::vector<int>& nodes, std::size_t i) {
-  const auto& a = mesh.nodes[nodes[0]];
-  const auto& b = mesh.nodes[nodes[1]];
+  const auto& a = mesh.node(nodes[0]);
+  const auto& b = mesh.node(nodes[1]);
   if constexpr (Dim == 2) {
     const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
-    const double r = mesh.axisymmetric ? (a[0] + b[0] + mesh.nodes[nodes[i]][0]) / 3 : 1.0;
+    const double r = mesh.axisymmetric ? (a[0] + b[0] + mesh.node(nodes[i])[0]) / 3 : 1.0;
     return 0.5 * length * r;
   } else {
     double area = 0;
     for (std::size_t k = 1; k + 1 < nodes.size(); ++k) {
-      const auto &p = mesh.nodes[nodes[k]], &q = mesh.nodes[nodes[k + 1]];
+      const auto &p = mesh.node(nodes[k]), &q = mesh.node(nodes[k + 1]);
       Vec<3> cross;
       for (int j = 0; j < 3; ++j) {
         const int s = (j + 1) % 3, t = (j + 2) % 3;
@@ -166,7 +168,7 @@ template <int Dim>
 double thickness_of(const Body<Dim>& body, const VelocityField<Dim>& field, const AbsorbingSide& side,
                     const std::vector<Face<Dim>>& faces) {
   double h = 0;
-  for (const auto& face : faces) h = std::max(h, body.mesh->size[face.element]);
+  for (const auto& face : faces) h = std::max(h, body.mesh->size_of(face.element));
   if (!side.thickness) return std::max(larger_side(field), 5 * h);
   const double thickness = *side.thickness;
   if (thickness == 0 || thickness >= 5 * h) return thickness;
@@ -184,7 +186,7 @@ void refuse_walls(const Body<Dim>& body, const std::vector<Face<Dim>>& faces) {
       if (body.conditions.normal[n] != face.axis) continue;
       throw InputError("an absorbing side is no wall with friction",
                        fmt::format("a wall of friction = {:g} at the node at ({:g}) of the side",
-                                   body.conditions.friction[n], fmt::join(body.mesh->nodes[n], ", ")),
+                                   body.conditions.friction[n], fmt::join(body.mesh->node(n), ", ")),
                        "leave out the wall or absorbing on that side");
     }
   }
@@ -203,25 +205,25 @@ Sides<Dim> soil_beyond(const Body<Dim>& body, const VelocityField<Dim>& field, c
   const double thickness = thickness_of(body, field, side, faces);
   const auto content = contents(body, field);
   Sides<Dim> sides;
-  sides.of_node.assign(mesh.nodes.size(), -1);
+  sides.of_node.resize(mesh.node_count());
   for (const auto& face : faces) {
     const auto& its = content[face.element];
     if (!(its.Omega > 0)) continue;
-    if (!its.known && !side.impedance)
+    if (its.unknown && !side.impedance)
       throw InputError("the law of the soil at an absorbing side does not tell its shear modulus", "no impedance",
                        "give impedance = [Z_p, Z_s] of the soil beyond, density times wave speed");
     const double rho = its.mass / its.Omega;
-    const double G = its.known ? its.G : 0.25 * its.M;  // ν = 1/3, to compare with what is given
+    const double G = !its.unknown ? its.G : 0.25 * its.M;  // ν = 1/3, to compare with what is given
     const std::array Z_soil{std::sqrt(rho * its.M / its.Omega), std::sqrt(rho * G / its.Omega)};
     const auto Z_beyond = side.impedance.value_or(Z_soil);
     const double fill = std::min(1.0, its.Omega / volume_of(mesh, face.element));
     for (std::size_t i = 0; i < face.nodes.size(); ++i) {
-      int& place = sides.of_node[face.nodes[i]];
-      if (place < 0) {
-        place = static_cast<int>(sides.node.size());
+      const int n = face.nodes[i];
+      if (sides.of_node[n] < 0) {
+        sides.of_node.set(n, static_cast<int>(sides.node.size()));
         sides.node.emplace_back();
       }
-      auto& node = sides.node[place];
+      auto& node = sides.node[sides.of_node[n]];
       const double area = fill * node_area(mesh, face.nodes, i);
       for (int j = 0; j < Dim; ++j) {
         const int wave = j == face.axis ? 0 : 1;
@@ -242,14 +244,14 @@ template <int Dim>
 void take_over(const Body<Dim>& body, VelocityField<Dim>& field, const Sides<Dim>& beyond,
                const Conditions<Dim>& others, std::vector<int>& taken) {
   auto& sides = field.outside.sides;
-  if (!sides.active()) sides.of_node.assign(body.mesh->nodes.size(), -1);
+  if (!sides.active()) sides.of_node.resize(body.mesh->node_count());
   for (int k = 0; k < field.assembly.size(); ++k) {
     const int n = field.assembly.node(k);
     if (!beyond.holds(n)) continue;
     const auto sums = step::gathered_sums(field, k);
     if (sums.mass() < field.least_mass) continue;
     if (sides.of_node[n] < 0) {
-      sides.of_node[n] = static_cast<int>(sides.node.size());
+      sides.of_node.set(n, static_cast<int>(sides.node.size()));
       sides.node.emplace_back();
     }
     auto& node = sides.node[sides.of_node[n]];

@@ -55,7 +55,7 @@ struct SideWork {
 
 template <int Dim>
 struct Sides {
-  std::vector<int> of_node;  ///< of each node of the mesh: its place in `node`, or -1; empty where no side absorbs
+  MostlyNone<int> of_node;  ///< of each node of the mesh: its place in `node`, or -1; empty where no side absorbs
   std::vector<SideNode<Dim>> node;
 
   bool active() const { return !of_node.empty(); }

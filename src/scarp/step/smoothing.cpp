@@ -26,7 +26,7 @@ void for_each_of_few(int count, int chunk, F&& f) {
 /// f(basis, cell) for the linear functions of element e of a mesh that is no grid.
 template <int Dim, class F>
 void with_cell(const Mesh<Dim>& mesh, int e, F&& f) {
-  with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
+  with_shape<Dim>(mesh.type_of(e), [&]<class Shape>(Shape) {
     const typename Linear<Shape>::Cell cell(mesh, e);
     f(Linear<Shape>{}, cell);
   });
@@ -49,11 +49,11 @@ double shape_variance(const Mesh<Dim>& mesh, int e) {
       cell.shape(local, N);
       Vec<Dim> x{};
       for (int i = 0; i < Basis::nodes; ++i) {
-        for (int d = 0; d < Dim; ++d) x[d] += N[i] * mesh.nodes[n[i]][d];
+        for (int d = 0; d < Dim; ++d) x[d] += N[i] * mesh.node(n[i])[d];
       }
       volume += dV;
       for (int i = 0; i < Basis::nodes; ++i) {
-        for (int d = 0; d < Dim; ++d) sum += dV * N[i] * (mesh.nodes[n[i]][d] - x[d]) * (mesh.nodes[n[i]][d] - x[d]);
+        for (int d = 0; d < Dim; ++d) sum += dV * N[i] * (mesh.node(n[i])[d] - x[d]) * (mesh.node(n[i])[d] - x[d]);
       }
     });
   });

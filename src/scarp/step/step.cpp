@@ -228,7 +228,7 @@ double critical_time_step(Body<Dim>& body, const Scheme& scheme, double local_da
   for (auto& field : body.fields) {
     if (step::bounds_by_nodes(body, scheme)) find_bound_by_nodes(body, field, scheme);
     for (const auto& block : field.blocks) {
-      dt = std::min(dt, exec::critical_time_step(block, body.mesh->size, field.active, field.buffers.weight,
+      dt = std::min(dt, exec::critical_time_step(block, *body.mesh, field.active, field.buffers.weight,
                                                  field.buffers.bounds.least_per_mass,
                                                  scheme::waves(scheme, is_elastic(block.model), local_damping)));
     }

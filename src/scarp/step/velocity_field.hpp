@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "scarp/base/zero_pages.hpp"
 #include "scarp/comm/alone.hpp"
 #include "scarp/exec/assembly.hpp"
 #include "scarp/points/points.hpp"
@@ -88,6 +89,7 @@ template <int Dim>
 struct Buffers {
   // Of each slot:
   std::vector<std::uint8_t> inside;  ///< are all elements around it active, too?
+  Column size;                       ///< Mesh::size_of its element
   Column weight;                     ///< w of its quadrature
   Column correction;  ///< transfer::GradientCorrection of its quadrature, as stored: correction_row numbers
   std::size_t correction_row = 0;
@@ -105,7 +107,7 @@ struct Buffers {
   std::vector<BodyBooks<Dim>> books;             ///< of each thread
   // Elements whose quadrature changes with the points that do (reweighted.hpp), and which of all these are.
   std::vector<int> changed;
-  std::vector<std::uint8_t> is_changed;
+  ZeroPages<std::uint8_t> is_changed;
 };
 
 template <int Dim>

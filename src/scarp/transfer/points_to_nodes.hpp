@@ -53,7 +53,7 @@ struct NodePlaces {
   NodePlaces(const Mesh<Basis::dim>& mesh, int e) {
     const auto n = mesh.element_nodes(e);
     repeat<Basis::dim>(
-        [&](auto j) { x[j] = for_each_point<Basis>(nodal<Basis>([&](int i) { return mesh.nodes[n[i]][j]; })); });
+        [&](auto j) { x[j] = for_each_point<Basis>(nodal<Basis>([&](int i) { return mesh.node(n[i])[j]; })); });
   }
 };
 /// Of schemes whose points carry their velocity alone.

@@ -13,7 +13,7 @@ template <int Dim>
 Conditions<Dim> on_a_wall(std::uint8_t fixed = 0) {
   Conditions<Dim> conditions(1);
   conditions.fixed[0] = fixed;
-  conditions.normal[0] = Dim - 1;
+  conditions.normal.set(0, Dim - 1);
   conditions.inward[0] = 1;
   conditions.friction[0] = 0.5;
   return conditions;

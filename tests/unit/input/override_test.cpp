@@ -60,6 +60,18 @@ TEST(Override, TakesBareWordsAsText) {
             1u);
 }
 
+// TOML knows none of these as numbers; they would be texts.
+TEST(Override, TakesNumbersAsPeopleWriteThem) {
+  EXPECT_EQ(read(minimal, {"method.flip=.5"}).method.flip, 0.5);
+  EXPECT_EQ(read(minimal, {"stage.cut.duration=5."}).stages[1].duration, 5.0);
+  EXPECT_EQ(read(minimal, {"gravity.1=-.5e1"}).gravity[1], -5.0);
+  EXPECT_EQ(read(minimal, {"stage.cut.duration=+.25E+1"}).stages[1].duration, 2.5);
+  EXPECT_EQ(read(minimal, {"stage.cut.remove.lifts=007"}).stages[1].remove->lifts, 7);
+  // These are words.
+  for (const std::string word : {".", "-", "e5", "1.2.3", "1e", "0x", "2.5x"})
+    EXPECT_EQ(read(minimal, {"title=" + word}).title, word);
+}
+
 TEST(Override, LaterOnesSeeEarlierOnes) {
   EXPECT_EQ(read(minimal, {"method.flip=0.1", "method.flip=0.2"}).method.flip, 0.2);
   EXPECT_EQ(read(minimal, {"stage.cut.name=dig", "stage.dig.duration=9"}).stages[1].duration, 9.0);

@@ -52,7 +52,7 @@ Sample<Dim> sample(const Mesh<Dim>& mesh, int e, std::mt19937& random) {
     }
     return point;
   }
-  return with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
+  return with_shape<Dim>(mesh.type_of(e), [&]<class Shape>(Shape) {
     if constexpr (Shape::nodes == Dim + 1) {
       for (double& c : point.xi) c = part(random) / Dim;
     } else {
@@ -132,8 +132,8 @@ void expect_one_and_linear(const Mesh<Dim>& mesh) {
       one += N[i];
       for (int j = 0; j < Dim; ++j) {
         zero[j] += B[i][j];
-        x[j] += N[i] * mesh.nodes[nodes[i]][j];
-        for (int k = 0; k < Dim; ++k) identity[j][k] += mesh.nodes[nodes[i]][j] * B[i][k];
+        x[j] += N[i] * mesh.node(nodes[i])[j];
+        for (int k = 0; k < Dim; ++k) identity[j][k] += mesh.node(nodes[i])[j] * B[i][k];
       }
     }
     EXPECT_NEAR(one, 1, value_band);
@@ -176,8 +176,8 @@ void expect_definitions(const Mesh<Dim>& mesh) {
     const auto exact = test::functions_of_all_nodes<Dim>(mesh, e, point.x, half);
     // Local nodes may stand for a node twice (GIMP beside a side), and nodes that are not local must have nothing.
     test::AtNodes<Dim> sums;
-    sums.N.resize(mesh.nodes.size());
-    sums.B.resize(mesh.nodes.size());
+    sums.N.resize(mesh.node_count());
+    sums.B.resize(mesh.node_count());
     for (int i = 0; i < Basis::nodes; ++i) {
       const int n = mesh.element_nodes(e)[i];
       sums.N[n] += N[i];

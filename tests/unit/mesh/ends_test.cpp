@@ -41,7 +41,7 @@ void expect_ends_at_the_surface(const Mesh<Dim>& mesh) {
   const Locator<Dim> locator(mesh);
   int ends = 0;
   for (int e = 0; e < mesh.element_count(); ++e) {
-    with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
+    with_shape<Dim>(mesh.type_of(e), [&]<class Shape>(Shape) {
       for (int side = 0; side < static_cast<int>(Shape::sides.size()); ++side) {
         const auto middle = middle_of<Shape>(mesh, e, side);
         EXPECT_EQ(locator.ends_at(e, side), is_at_surface<Dim>(middle)) << "element " << e << ", side " << side;
@@ -92,11 +92,8 @@ TEST(EndsAt, AHoleInTheMesh) {
 
 TEST(ElementsAt, CornersLinesAndInsideOfAGrid) {
   for (const bool as_grid : {true, false}) {
-    Mesh<2> mesh = make_grid({0, 0}, {3, 2}, {3, 2});
-    if (!as_grid) {  // the same as quadrilaterals
-      mesh.grid.reset();
-      complete(mesh);
-    }
+    const Mesh<2> grid = make_grid({0, 0}, {3, 2}, {3, 2});
+    const Mesh<2> mesh = as_grid ? grid : as_lists(grid);
     const Locator<2> locator(mesh);
     EXPECT_EQ(locator.elements_at({0.4, 0.6}, 0), std::vector<int>{0});
     EXPECT_EQ(locator.elements_at({1, 0.6}, 0), (std::vector<int>{0, 1}));
@@ -111,13 +108,13 @@ TEST(ElementsAt, CornersLinesAndInsideOfAGrid) {
 template <int Dim>
 void expect_all_that_hold(const Mesh<Dim>& mesh) {
   const Locator<Dim> locator(mesh);
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+  for (int n = 0; n < mesh.node_count(); ++n) {
     std::vector<int> with_node;
     for (int e = 0; e < mesh.element_count(); ++e) {
       const auto nodes = mesh.element_nodes(e);
-      if (std::count(nodes.begin(), nodes.end(), static_cast<int>(n)) > 0) with_node.push_back(e);
+      if (std::count(nodes.begin(), nodes.end(), n) > 0) with_node.push_back(e);
     }
-    EXPECT_EQ(locator.elements_at(mesh.nodes[n], with_node.back()), with_node) << "node " << n;
+    EXPECT_EQ(locator.elements_at(mesh.node(n), with_node.back()), with_node) << "node " << n;
   }
 }
 

@@ -33,11 +33,11 @@ TEST_P(Formats, GiveTheSameMesh) {
     const Mesh<2> other = read(name + format);
     ASSERT_EQ(other.node_count(), first.node_count());
     for (int n = 0; n < first.node_count(); ++n)
-      for (int k = 0; k < 2; ++k) ASSERT_NEAR(other.nodes[n][k], first.nodes[n][k], 1e-14);
-    EXPECT_EQ(other.types, first.types);
-    EXPECT_EQ(other.offsets, first.offsets);
-    EXPECT_EQ(other.connectivity, first.connectivity);
-    EXPECT_EQ(other.around, first.around);
+      for (int k = 0; k < 2; ++k) ASSERT_NEAR(other.node(n)[k], first.node(n)[k], 1e-14);
+    EXPECT_EQ(other.lists.types, first.lists.types);
+    EXPECT_EQ(other.lists.offsets, first.lists.offsets);
+    EXPECT_EQ(other.lists.connectivity, first.lists.connectivity);
+    EXPECT_EQ(other.lists.around, first.lists.around);
     EXPECT_EQ(other.node_sets, first.node_sets);
   }
 }
@@ -47,11 +47,11 @@ TEST_P(Formats, GiveElementsThatRunAnticlockwiseAndFillTheirShape) {
   double area = 0;
   for (int e = 0; e < mesh.element_count(); ++e) {
     EXPECT_GT(element_area(mesh, e), 0);
-    EXPECT_GT(mesh.size[e], 0);
+    EXPECT_GT(mesh.size_of(e), 0);
     area += element_area(mesh, e);
   }
   EXPECT_DOUBLE_EQ(area, mesh_area(mesh));
-  const std::set<int> used(mesh.connectivity.begin(), mesh.connectivity.end());
+  const std::set<int> used(mesh.lists.connectivity.begin(), mesh.lists.connectivity.end());
   EXPECT_EQ(static_cast<int>(used.size()), mesh.node_count());
   EXPECT_FALSE(mesh.grid);
 }
@@ -77,7 +77,7 @@ TEST(Gmsh, FillsTheGeometry) {
 
 TEST(Gmsh, ReadsBothElementTypes) {
   const auto count = [](const Mesh<2>& mesh, ElementType type) {
-    return std::count(mesh.types.begin(), mesh.types.end(), type);
+    return std::count(mesh.lists.types.begin(), mesh.lists.types.end(), type);
   };
   const Mesh<2> triangles = read("triangles_22_ascii"), quads = read("quads_22_ascii"), mixed = read("mixed_22_ascii");
   EXPECT_EQ(count(triangles, ElementType::T3), triangles.element_count());
@@ -93,7 +93,7 @@ TEST(Gmsh, TurnsPointsAndLinesInGroupsIntoNodeSets) {
   const auto where = [&mesh](auto&& condition) {
     std::vector<int> set;
     for (int n = 0; n < mesh.node_count(); ++n)
-      if (condition(mesh.nodes[n])) set.push_back(n);
+      if (condition(mesh.node(n))) set.push_back(n);
     return set;
   };
   EXPECT_EQ(mesh.node_sets.at("base"), where([](const Vec<2>& x) { return std::abs(x[1]) < 1e-9; }));
@@ -111,7 +111,7 @@ TEST(Gmsh, TurnsPointsAndLinesInGroupsIntoNodeSets) {
 TEST(Gmsh, LeavesGroupsNamedLikeASideAlone) {
   const Mesh<2> mesh = read("quads_22_binary");
   EXPECT_EQ(mesh.node_sets.at("left").size(), 9u);
-  for (int n : mesh.node_sets.at("left")) EXPECT_NEAR(std::hypot(mesh.nodes[n][0], mesh.nodes[n][1]), 3, 1e-9);
+  for (int n : mesh.node_sets.at("left")) EXPECT_NEAR(std::hypot(mesh.node(n)[0], mesh.node(n)[1]), 3, 1e-9);
   EXPECT_EQ(mesh.node_sets.at("bottom").size(), 7u);
   EXPECT_EQ(mesh.node_sets.at("hole").size(), 9u);
 }
@@ -123,7 +123,7 @@ TEST(Gmsh, DropsNodesThatNoElementUsesAndTurnsElementsRound) {
                                                "$Nodes\n5\n9 9 9 9\n20 0 0 0\n40 1 1 0\n30 1 0 0\n35 0 1 0\n$EndNodes\n"
                                                "$Elements\n2\n1 2 2 1 1 20 40 30\n2 2 2 1 1 20 40 35\n$EndElements\n");
   ASSERT_EQ(mesh.node_count(), 4);
-  EXPECT_EQ(std::count(mesh.nodes.begin(), mesh.nodes.end(), Vec<2>{9, 9}), 0);
+  EXPECT_EQ(std::count(mesh.lists.nodes.begin(), mesh.lists.nodes.end(), Vec<2>{9, 9}), 0);
   for (int e : {0, 1}) EXPECT_DOUBLE_EQ(element_area(mesh, e), 0.5);
   EXPECT_DOUBLE_EQ(mesh_area(mesh), 1);
 }
@@ -145,7 +145,7 @@ TEST(Gmsh, MeshesCanBeSearched) {
     Vec<2> centre{};
     const auto nodes = mesh.element_nodes(e);
     for (int n : nodes)
-      for (int k = 0; k < 2; ++k) centre[k] += mesh.nodes[n][k] / static_cast<double>(nodes.size());
+      for (int k = 0; k < 2; ++k) centre[k] += mesh.node(n)[k] / static_cast<double>(nodes.size());
     hint = locator.find(centre, hint, counts).element;
     EXPECT_EQ(hint, e);
   }

@@ -130,7 +130,7 @@ AtNodes<Dim> functions_of_all_nodes(const Mesh<Dim>& mesh, int e, const Vec<Dim>
     const double h = grid.spacing[d];
     along[d] = functions_along_axis(grid.functions, grid.elements[d], h, (x[d] - grid.origin[d]) / h, half, at[d]);
   }
-  AtNodes<Dim> all{std::vector<double>(mesh.nodes.size(), 0.0), std::vector<Vec<Dim>>(mesh.nodes.size())};
+  AtNodes<Dim> all{std::vector<double>(mesh.node_count(), 0.0), std::vector<Vec<Dim>>(mesh.node_count())};
   for (int n = 0; n < mesh.node_count(); ++n) {
     std::array<int, Dim> place;
     int rest = n;

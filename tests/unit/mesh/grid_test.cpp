@@ -16,15 +16,15 @@ TEST(Grid, NumbersNodesAndElementsXFastest) {
   const Mesh<2> mesh = make_grid({1, -2}, {6, 2}, {3, 2});
   ASSERT_EQ(mesh.node_count(), 12);
   ASSERT_EQ(mesh.element_count(), 6);
-  EXPECT_EQ(mesh.nodes[0], (Vec<2>{1, -2}));
-  EXPECT_EQ(mesh.nodes[3], (Vec<2>{7, -2}));
-  EXPECT_EQ(mesh.nodes[11], (Vec<2>{7, 0}));
+  EXPECT_EQ(mesh.node(0), (Vec<2>{1, -2}));
+  EXPECT_EQ(mesh.node(3), (Vec<2>{7, -2}));
+  EXPECT_EQ(mesh.node(11), (Vec<2>{7, 0}));
   const auto nodes = mesh.element_nodes(4);
   EXPECT_EQ(std::vector<int>(nodes.begin(), nodes.end()), (std::vector<int>{5, 6, 10, 9}));
   ASSERT_TRUE(mesh.grid);
   EXPECT_EQ(mesh.grid->spacing, (Vec<2>{2, 1}));
   EXPECT_DOUBLE_EQ(mesh_area(mesh), 12);
-  for (double size : mesh.size) EXPECT_DOUBLE_EQ(size, 1);  // the shorter side
+  for (int e = 0; e < 6; ++e) EXPECT_DOUBLE_EQ(mesh.size_of(e), 1);  // the shorter side
 }
 
 TEST(Grid, HasItsSidesAndNeighbours) {
@@ -41,7 +41,7 @@ TEST(Grid, HasItsSidesAndNeighbours) {
 // The last line lies on the side to the last bit, also where size / elements is not a short binary number.
 TEST(Grid, EndsExactlyOnItsSides) {
   const Mesh<2> mesh = make_grid({0, 0}, {0.7, 0.3}, {49, 7});
-  EXPECT_EQ(mesh.nodes.back(), (Vec<2>{0.7, 0.3}));
+  EXPECT_EQ(mesh.node(mesh.node_count() - 1), (Vec<2>{0.7, 0.3}));
   EXPECT_EQ(mesh.node_sets.at("right").size(), 8u);
 }
 
@@ -58,10 +58,10 @@ TEST(Grid, RefusesWhatIsNoGrid) {
 
 Mesh<2> single(std::vector<Vec<2>> nodes) {
   Mesh<2> mesh;
-  mesh.types.push_back(nodes.size() == 3 ? ElementType::T3 : ElementType::Q4);
-  mesh.offsets = {0, static_cast<int>(nodes.size())};
-  for (int i = 0; i < static_cast<int>(nodes.size()); ++i) mesh.connectivity.push_back(i);
-  mesh.nodes = std::move(nodes);
+  mesh.lists.types.push_back(nodes.size() == 3 ? ElementType::T3 : ElementType::Q4);
+  mesh.lists.offsets = {0, static_cast<int>(nodes.size())};
+  for (int i = 0; i < static_cast<int>(nodes.size()); ++i) mesh.lists.connectivity.push_back(i);
+  mesh.lists.nodes = std::move(nodes);
   return mesh;
 }
 
@@ -101,24 +101,23 @@ TEST(MeshArea, IsThatOfTheSquareHoweverItIsCut) {
 TEST(Order, GoesFromEachElementToItsNeighbour) {
   Mesh<2> mesh = make_grid({0, 0}, {32, 32}, {32, 32});
   Mesh<2> shuffled;
-  shuffled.nodes = mesh.nodes;
-  shuffled.offsets.push_back(0);
+  for (int n = 0; n < mesh.node_count(); ++n) shuffled.lists.nodes.push_back(mesh.node(n));
+  shuffled.lists.offsets.push_back(0);
   for (int i = 0; i < mesh.element_count(); ++i) {
     const auto nodes = mesh.element_nodes((i * 389) % mesh.element_count());
-    shuffled.types.push_back(ElementType::Q4);
-    shuffled.connectivity.insert(shuffled.connectivity.end(), nodes.begin(), nodes.end());
-    shuffled.offsets.push_back(static_cast<int>(shuffled.connectivity.size()));
+    shuffled.lists.types.push_back(ElementType::Q4);
+    shuffled.lists.connectivity.insert(shuffled.lists.connectivity.end(), nodes.begin(), nodes.end());
+    shuffled.lists.offsets.push_back(static_cast<int>(shuffled.lists.connectivity.size()));
   }
   shuffled.node_sets["corner"] = {mesh.node_count() - 1};
   order_along_curve(shuffled);
   ASSERT_EQ(shuffled.node_count(), mesh.node_count());
   ASSERT_EQ(shuffled.element_count(), mesh.element_count());
   EXPECT_DOUBLE_EQ(mesh_area(shuffled), 1024);
-  EXPECT_EQ(shuffled.nodes[shuffled.node_sets.at("corner")[0]], (Vec<2>{32, 32}));
+  EXPECT_EQ(shuffled.node(shuffled.node_sets.at("corner")[0]), (Vec<2>{32, 32}));
   double way = 0;
   for (int e = 1; e < shuffled.element_count(); ++e) {
-    const Vec<2>&a = shuffled.nodes[shuffled.element_nodes(e - 1)[0]],
-          &b = shuffled.nodes[shuffled.element_nodes(e)[0]];
+    const Vec<2>&a = shuffled.node(shuffled.element_nodes(e - 1)[0]), &b = shuffled.node(shuffled.element_nodes(e)[0]);
     way += std::hypot(a[0] - b[0], a[1] - b[1]);
   }
   EXPECT_NEAR(way / 1023, 1, 1e-12);

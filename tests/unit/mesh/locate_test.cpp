@@ -18,7 +18,7 @@ std::int64_t found(const SearchCounts& c) {
 
 void expect_at(const Mesh<2>& mesh, const Location<2>& at, const Vec<2>& x) {
   ASSERT_GE(at.element, 0);
-  with_shape<2>(mesh.types[at.element], [&]<class Shape>(Shape) {
+  with_shape<2>(mesh.type_of(at.element), [&]<class Shape>(Shape) {
     const Vec<2> back = global_coordinates<Shape>(node_positions<Shape>(mesh, at.element), at.xi);
     EXPECT_NEAR(back[0], x[0], 1e-12);
     EXPECT_NEAR(back[1], x[1], 1e-12);
@@ -144,10 +144,10 @@ TEST_P(AnyMesh, DecidesSharedPointsAlike) {
           }
       }
   };
-  for (const Vec<2>& x : mesh.nodes) check(x);
+  for (const Vec<2>& x : mesh.lists.nodes) check(x);
   for (int e = 0; e < mesh.element_count(); ++e) {
     const auto nodes = mesh.element_nodes(e);
-    const Vec<2>&a = mesh.nodes[nodes[0]], &b = mesh.nodes[nodes[1]];
+    const Vec<2>&a = mesh.node(nodes[0]), &b = mesh.node(nodes[1]);
     check({0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])});
   }
 }
@@ -177,7 +177,7 @@ TEST_P(AnyMesh, TakesPointsThatAreNoNumbersAsLost) {
 // Far from the origin a coordinate's own round-off exceeds 1e-10 of an element; points on edges must still be found.
 TEST(Locate, KeepsPointsOnEdgesFarFromTheOrigin) {
   Mesh<2> mesh = test::irregular(10, 0.3, Kind::mixed);
-  for (Vec<2>& x : mesh.nodes)
+  for (Vec<2>& x : mesh.lists.nodes)
     for (double& coordinate : x) coordinate += 5e6;
   const Locator<2> locator(mesh);
   EXPECT_GT(locator.tolerance(), 1e-10);
@@ -185,7 +185,7 @@ TEST(Locate, KeepsPointsOnEdgesFarFromTheOrigin) {
     const auto nodes = mesh.element_nodes(e);
     for (double part : {0.0, 0.1, 0.37, 0.5}) {
       Vec<2> x;
-      for (int k = 0; k < 2; ++k) x[k] = (1 - part) * mesh.nodes[nodes[0]][k] + part * mesh.nodes[nodes[1]][k];
+      for (int k = 0; k < 2; ++k) x[k] = (1 - part) * mesh.node(nodes[0])[k] + part * mesh.node(nodes[1])[k];
       EXPECT_GE(locator.find_anywhere(x).element, 0);
       SearchCounts counts;
       EXPECT_GE(locator.find(x, e, counts).element, 0);
@@ -196,9 +196,7 @@ TEST(Locate, KeepsPointsOnEdgesFarFromTheOrigin) {
 // A grid and the same rectangles without the grid descriptor must tell the same element, on lines and outside too.
 TEST(Locate, GridAgreesWithTheSameElementsSearched) {
   const Mesh<2> grid = make_grid({-1, 2}, {3, 2}, {12, 10});
-  Mesh<2> plain = grid;
-  plain.grid.reset();
-  build_around(plain);
+  const Mesh<2> plain = test::as_lists(grid);
   const Locator<2> direct(grid), searched(plain);
   std::mt19937 random(10);
   std::uniform_real_distribution<double> ux(-1.2, 2.2), uy(1.8, 4.2);
@@ -206,8 +204,8 @@ TEST(Locate, GridAgreesWithTheSameElementsSearched) {
   int lost = 0;
   for (int i = 0; i < 20000; ++i) {
     Vec<2> x = {ux(random), uy(random)};
-    if (i % 3 == 1) x[0] = grid.nodes[random() % grid.nodes.size()][0];
-    if (i % 3 == 2) x = grid.nodes[random() % grid.nodes.size()];
+    if (i % 3 == 1) x[0] = grid.node(static_cast<int>(random() % grid.node_count()))[0];
+    if (i % 3 == 2) x = grid.node(static_cast<int>(random() % grid.node_count()));
     const int hint = static_cast<int>(random() % (grid.element_count() + 1)) - 1;
     const Location<2> p = direct.find(x, hint, a), q = searched.find(x, hint, b);
     ASSERT_EQ(p.element, q.element);

@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "listed.hpp"
 #include "scarp/mesh/build.hpp"
 #include "scarp/mesh/grid.hpp"
 #include "scarp/mesh/mesh.hpp"
@@ -21,16 +22,17 @@ inline Mesh<2> irregular(int n, double shake, Kind kind, const std::function<boo
   std::mt19937 random(7);
   std::uniform_real_distribution<double> move(-shake / n, shake / n);
   Mesh<2> mesh;
-  for (Vec<2> x : regular.nodes) {
+  for (int i = 0; i < regular.node_count(); ++i) {
+    Vec<2> x = regular.node(i);
     for (double& coordinate : x)
       if (coordinate > 0 && coordinate < 1) coordinate += move(random);
-    mesh.nodes.push_back({0.5 * x[0] * (1 + x[0]), x[1]});
+    mesh.lists.nodes.push_back({0.5 * x[0] * (1 + x[0]), x[1]});
   }
-  mesh.offsets.push_back(0);
+  mesh.lists.offsets.push_back(0);
   const auto add = [&](std::vector<int> nodes) {
-    mesh.types.push_back(nodes.size() == 3 ? ElementType::T3 : ElementType::Q4);
-    mesh.connectivity.insert(mesh.connectivity.end(), nodes.begin(), nodes.end());
-    mesh.offsets.push_back(static_cast<int>(mesh.connectivity.size()));
+    mesh.lists.types.push_back(nodes.size() == 3 ? ElementType::T3 : ElementType::Q4);
+    mesh.lists.connectivity.insert(mesh.lists.connectivity.end(), nodes.begin(), nodes.end());
+    mesh.lists.offsets.push_back(static_cast<int>(mesh.lists.connectivity.size()));
   };
   for (int e = 0; e < regular.element_count(); ++e) {
     if (removed && removed((e % n + 0.5) / n, (e / n + 0.5) / n)) continue;
@@ -53,7 +55,7 @@ inline Mesh<2> irregular(int n, double shake, Kind kind, const std::function<boo
 inline bool contains(const Mesh<2>& mesh, int e, const Vec<2>& x, double margin = 0) {
   const auto nodes = mesh.element_nodes(e);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Vec<2>&a = mesh.nodes[nodes[i]], &b = mesh.nodes[nodes[(i + 1) % nodes.size()]];
+    const Vec<2>&a = mesh.node(nodes[i]), &b = mesh.node(nodes[(i + 1) % nodes.size()]);
     if ((b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]) < -margin) return false;
   }
   return true;

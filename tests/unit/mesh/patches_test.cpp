@@ -15,7 +15,7 @@ namespace {
 /// Every simplex is in one patch, and no other element in any.
 template <int Dim>
 void expect_partition(const Mesh<Dim>& mesh, const Patches& patches) {
-  std::vector<int> count(mesh.types.size(), 0);
+  std::vector<int> count(mesh.element_count(), 0);
   for (int k = 0; k < patches.size(); ++k) {
     EXPECT_TRUE(std::is_sorted(patches.elements(k).begin(), patches.elements(k).end()));
     for (const int e : patches.elements(k)) {
@@ -94,10 +94,10 @@ TEST(Patches, HoldAllSimplicesOfAnyMeshAndAreInOnePiece) {
 TEST(Patches, OneLeftOverJoinsItsNeighbours) {
   // A strip of three triangles whose long edge is between the first two.
   Mesh<2> mesh;
-  mesh.nodes = {{0, 0}, {2, 0}, {2, 1}, {0, 1}, {2.5, 0.5}};
-  mesh.offsets = {0, 3, 6, 9};
-  mesh.types.assign(3, ElementType::T3);
-  mesh.connectivity = {0, 1, 2, 0, 2, 3, 1, 4, 2};
+  mesh.lists.nodes = {{0, 0}, {2, 0}, {2, 1}, {0, 1}, {2.5, 0.5}};
+  mesh.lists.offsets = {0, 3, 6, 9};
+  mesh.lists.types.assign(3, ElementType::T3);
+  mesh.lists.connectivity = {0, 1, 2, 0, 2, 3, 1, 4, 2};
   complete(mesh);
   const Patches patches(mesh);
   ASSERT_EQ(patches.size(), 1);
@@ -106,10 +106,10 @@ TEST(Patches, OneLeftOverJoinsItsNeighbours) {
 
 TEST(Patches, OneByItselfIsAPatch) {
   Mesh<2> mesh;
-  mesh.nodes = {{0, 0}, {1, 0}, {0, 1}};
-  mesh.offsets = {0, 3};
-  mesh.types.assign(1, ElementType::T3);
-  mesh.connectivity = {0, 1, 2};
+  mesh.lists.nodes = {{0, 0}, {1, 0}, {0, 1}};
+  mesh.lists.offsets = {0, 3};
+  mesh.lists.types.assign(1, ElementType::T3);
+  mesh.lists.connectivity = {0, 1, 2};
   complete(mesh);
   const Patches patches(mesh);
   ASSERT_EQ(patches.size(), 1);

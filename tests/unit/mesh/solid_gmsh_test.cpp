@@ -41,10 +41,10 @@ TEST_P(SolidFormats, GiveTheSameMesh) {
     const Mesh<3> other = read(name + format);
     ASSERT_EQ(other.node_count(), first.node_count());
     for (int n = 0; n < first.node_count(); ++n)
-      for (int k = 0; k < 3; ++k) ASSERT_NEAR(other.nodes[n][k], first.nodes[n][k], 1e-14);
-    EXPECT_EQ(other.types, first.types);
-    EXPECT_EQ(other.connectivity, first.connectivity);
-    EXPECT_EQ(other.around, first.around);
+      for (int k = 0; k < 3; ++k) ASSERT_NEAR(other.node(n)[k], first.node(n)[k], 1e-14);
+    EXPECT_EQ(other.lists.types, first.lists.types);
+    EXPECT_EQ(other.lists.connectivity, first.lists.connectivity);
+    EXPECT_EQ(other.lists.around, first.lists.around);
     EXPECT_EQ(other.node_sets, first.node_sets);
   }
 }
@@ -62,7 +62,7 @@ TEST(SolidGmsh, TurnsPointsCurvesAndSurfacesInGroupsIntoNodeSets) {
   const auto where = [&mesh](auto&& condition) {
     std::vector<int> set;
     for (int n = 0; n < mesh.node_count(); ++n)
-      if (condition(mesh.nodes[n])) set.push_back(n);
+      if (condition(mesh.node(n))) set.push_back(n);
     return set;
   };
   const auto slope = [](const Vec<3>& x) { return std::abs(x[0] + x[2] - 3) < 1e-9; };

@@ -16,21 +16,21 @@ using test::Solid;
 
 /// A random point of element e.
 Vec<3> point_in(const Mesh<3>& mesh, int e, std::mt19937& random, double margin = 1e-3) {
-  return with_shape<3>(mesh.types[e], [&]<class Shape>(Shape) {
+  return with_shape<3>(mesh.type_of(e), [&]<class Shape>(Shape) {
     return global_coordinates<Shape>(node_positions<Shape>(mesh, e), test::point_inside<Shape>(random, margin));
   });
 }
 
 void expect_at(const Mesh<3>& mesh, const Location<3>& at, const Vec<3>& x) {
   ASSERT_GE(at.element, 0);
-  with_shape<3>(mesh.types[at.element], [&]<class Shape>(Shape) {
+  with_shape<3>(mesh.type_of(at.element), [&]<class Shape>(Shape) {
     const Vec<3> back = global_coordinates<Shape>(node_positions<Shape>(mesh, at.element), at.xi);
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(back[k], x[k], 1e-12);
   });
 }
 
 int any_element(const Mesh<3>& mesh, std::mt19937& random) {
-  return static_cast<int>(random() % mesh.types.size());
+  return static_cast<int>(random() % mesh.element_count());
 }
 
 class AnySolid : public testing::TestWithParam<Solid> {
@@ -130,7 +130,7 @@ TEST_P(AnySolid, DecidesSharedPointsAlike) {
   const auto check = [&](int e, const std::vector<int>& nodes) {
     Vec<3> x{};
     for (int n : nodes)
-      for (int k = 0; k < 3; ++k) x[k] += mesh.nodes[n][k] / static_cast<double>(nodes.size());
+      for (int k = 0; k < 3; ++k) x[k] += mesh.node(n)[k] / static_cast<double>(nodes.size());
     std::vector<int> hints = {e, any_element(mesh, random), any_element(mesh, random)};
     for (int near : mesh.elements_around(e)) hints.push_back(near);
     int lowest = 0;
@@ -140,7 +140,7 @@ TEST_P(AnySolid, DecidesSharedPointsAlike) {
     for (int hint : hints) ASSERT_EQ(locator.find(x, hint, counts).element, has(hint, nodes) ? hint : lowest);
   };
   for (int e = 0; e < mesh.element_count(); e += mesh.element_count() / 60)
-    with_shape<3>(mesh.types[e], [&]<class Shape>(Shape) {
+    with_shape<3>(mesh.type_of(e), [&]<class Shape>(Shape) {
       const auto nodes = mesh.element_nodes(e);
       for (int n : nodes) check(e, {n});
       for (const auto& side : Shape::sides) {
@@ -149,7 +149,7 @@ TEST_P(AnySolid, DecidesSharedPointsAlike) {
         check(e, {all[0], all[1]});
         // Across the plane between the halves of a mixed mesh triangles meet quadrilaterals.
         bool between = GetParam() == Solid::mixed;
-        for (int n : all) between = between && mesh.nodes[n][0] == mesh.nodes[all[0]][0];
+        for (int n : all) between = between && mesh.node(n)[0] == mesh.node(all[0])[0];
         if (!between) check(e, all);
       }
     });
@@ -180,7 +180,7 @@ TEST_P(AnySolid, TakesPointsThatAreNoNumbersAsLost) {
 // Far from the origin a coordinate's own round-off exceeds 1e-10 of an element; points on edges must still be found.
 TEST_P(AnySolid, KeepsPointsOnEdgesFarFromTheOrigin) {
   Mesh<3> mesh = test::irregular(5, 0.2, GetParam());
-  for (Vec<3>& x : mesh.nodes)
+  for (Vec<3>& x : mesh.lists.nodes)
     for (double& coordinate : x) coordinate += 5e6;
   const Locator<3> locator(mesh);
   EXPECT_GT(locator.tolerance(), 1e-10);
@@ -188,7 +188,7 @@ TEST_P(AnySolid, KeepsPointsOnEdgesFarFromTheOrigin) {
     const auto nodes = mesh.element_nodes(e);
     for (double part : {0.0, 0.1, 0.37, 0.5}) {
       Vec<3> x;
-      for (int k = 0; k < 3; ++k) x[k] = (1 - part) * mesh.nodes[nodes[0]][k] + part * mesh.nodes[nodes[1]][k];
+      for (int k = 0; k < 3; ++k) x[k] = (1 - part) * mesh.node(nodes[0])[k] + part * mesh.node(nodes[1])[k];
       EXPECT_GE(locator.find_anywhere(x).element, 0);
       SearchCounts counts;
       EXPECT_GE(locator.find(x, e, counts).element, 0);
@@ -199,9 +199,7 @@ TEST_P(AnySolid, KeepsPointsOnEdgesFarFromTheOrigin) {
 // A grid and the same boxes without the grid descriptor must tell the same element, on faces, lines and outside too.
 TEST(LocateSolid, GridAgreesWithTheSameElementsSearched) {
   const Mesh<3> grid = make_grid<3>({-1, 2, 0}, {3, 2, 1.5}, {9, 7, 5});
-  Mesh<3> plain = grid;
-  plain.grid.reset();
-  build_around(plain);
+  const Mesh<3> plain = test::as_lists(grid);
   const Locator<3> direct(grid), searched(plain);
   std::mt19937 random(10);
   std::uniform_real_distribution<double> ux(-1.2, 2.2), uy(1.8, 4.2), uz(-0.1, 1.6);
@@ -209,9 +207,9 @@ TEST(LocateSolid, GridAgreesWithTheSameElementsSearched) {
   int lost = 0;
   for (int i = 0; i < 20000; ++i) {
     Vec<3> x = {ux(random), uy(random), uz(random)};
-    const Vec<3>& node = grid.nodes[random() % grid.nodes.size()];
+    const Vec<3>& node = grid.node(static_cast<int>(random() % grid.node_count()));
     for (int k = 0; k < i % 4; ++k) x[(k + i / 4) % 3] = node[(k + i / 4) % 3];
-    const int hint = static_cast<int>(random() % (grid.types.size() + 1)) - 1;
+    const int hint = static_cast<int>(random() % (grid.element_count() + 1)) - 1;
     const Location<3> p = direct.find(x, hint, a), q = searched.find(x, hint, b);
     ASSERT_EQ(p.element, q.element);
     lost += p.element < 0;
@@ -243,9 +241,7 @@ TEST(LocateSolid, GridCountsByHowFarElementsAreApart) {
 
 // A plate so thin that cubes of an element's volume would be far more than its elements: memory stays in bounds.
 TEST(LocateSolid, BinsOfAThinPlateStayAsManyAsItsElements) {
-  Mesh<3> plate = make_grid<3>({0, 0, 0}, {1, 1, 1e-5}, {30, 30, 1});
-  plate.grid.reset();
-  build_around(plate);
+  const Mesh<3> plate = test::as_lists(make_grid<3>({0, 0, 0}, {1, 1, 1e-5}, {30, 30, 1}));
   const Locator<3> locator(plate);
   std::mt19937 random(2);
   for (int e = 0; e < plate.element_count(); ++e)

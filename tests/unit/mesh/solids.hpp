@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "listed.hpp"
 #include "scarp/mesh/build.hpp"
 #include "scarp/mesh/grid.hpp"
 #include "scarp/mesh/mesh.hpp"
@@ -14,9 +15,9 @@ namespace scarp::test {
 enum class Solid { hexahedra, tetrahedra, mixed };
 
 inline void add_element(Mesh<3>& mesh, ElementType type, const std::vector<int>& nodes) {
-  mesh.types.push_back(type);
-  mesh.connectivity.insert(mesh.connectivity.end(), nodes.begin(), nodes.end());
-  mesh.offsets.push_back(static_cast<int>(mesh.connectivity.size()));
+  mesh.lists.types.push_back(type);
+  mesh.lists.connectivity.insert(mesh.lists.connectivity.end(), nodes.begin(), nodes.end());
+  mesh.lists.offsets.push_back(static_cast<int>(mesh.lists.connectivity.size()));
 }
 
 /// An n x n x n mesh of the unit cube with nodes moved at random by up to `shake` spacings (not off the sides), graded
@@ -26,15 +27,16 @@ inline Mesh<3> irregular(int n, double shake, Solid kind, bool graded = true) {
   const Mesh<3> regular = make_grid<3>({0, 0, 0}, {1, 1, 1}, {n, n, n});
   std::mt19937 random(7);
   std::uniform_real_distribution<double> move(-shake / n, shake / n);
-  const double middle = regular.nodes[n / 2][0];
+  const double middle = regular.node(n / 2)[0];
   Mesh<3> mesh;
-  for (Vec<3> x : regular.nodes) {
+  for (int node = 0; node < regular.node_count(); ++node) {
+    Vec<3> x = regular.node(node);
     const bool between = kind == Solid::mixed && x[0] == middle;
     for (int k = 0; k < 3; ++k)
       if (x[k] > 0 && x[k] < 1 && !(between && k == 0)) x[k] += move(random);
-    mesh.nodes.push_back({graded ? 0.5 * x[0] * (1 + x[0]) : x[0], x[1], x[2]});
+    mesh.lists.nodes.push_back({graded ? 0.5 * x[0] * (1 + x[0]) : x[0], x[1], x[2]});
   }
-  mesh.offsets.push_back(0);
+  mesh.lists.offsets.push_back(0);
   for (int e = 0; e < regular.element_count(); ++e) {
     const auto c = regular.element_nodes(e);
     if (kind == Solid::hexahedra || (kind == Solid::mixed && e % n < n / 2)) {
@@ -51,19 +53,19 @@ inline Mesh<3> irregular(int n, double shake, Solid kind, bool graded = true) {
 /// The same elements in another order, with the nodes in another order too.
 inline Mesh<3> shuffled(const Mesh<3>& mesh) {
   std::mt19937 random(3);
-  std::vector<int> elements(mesh.types.size()), nodes(mesh.nodes.size());
+  std::vector<int> elements(mesh.element_count()), nodes(mesh.node_count());
   for (std::size_t i = 0; i < elements.size(); ++i) elements[i] = static_cast<int>(i);
   for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = static_cast<int>(i);
   std::shuffle(elements.begin(), elements.end(), random);
   std::shuffle(nodes.begin(), nodes.end(), random);
   Mesh<3> other;
-  other.nodes.resize(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) other.nodes[nodes[i]] = mesh.nodes[i];
-  other.offsets.push_back(0);
+  other.lists.nodes.resize(nodes.size());
+  for (int i = 0; i < mesh.node_count(); ++i) other.lists.nodes[nodes[i]] = mesh.node(i);
+  other.lists.offsets.push_back(0);
   for (int e : elements) {
     std::vector<int> renumbered;
     for (int node : mesh.element_nodes(e)) renumbered.push_back(nodes[node]);
-    add_element(other, mesh.types[e], renumbered);
+    add_element(other, mesh.type_of(e), renumbered);
   }
   return other;
 }

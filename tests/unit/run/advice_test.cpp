@@ -46,13 +46,14 @@ TEST(Advice, SeesElementsThatAreSmallInOnePlaceOnly) {
   auto input = read(replaced(minimal, "spacing = 0.5", "spacing = 0.25"));
   Body<2> body = build_body(input);
   Mesh<2> mesh;
-  mesh.offsets = {0};
+  mesh.lists.offsets = {0};
   const auto square = [&](double x, double y, double h) {
     const int first = mesh.node_count();
-    for (const auto& [i, j] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) mesh.nodes.push_back({x + i * h, y + j * h});
-    for (int i = 0; i < 4; ++i) mesh.connectivity.push_back(first + i);
-    mesh.types.push_back(ElementType::Q4);
-    mesh.offsets.push_back(static_cast<int>(mesh.connectivity.size()));
+    for (const auto& [i, j] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+      mesh.lists.nodes.push_back({x + i * h, y + j * h});
+    for (int i = 0; i < 4; ++i) mesh.lists.connectivity.push_back(first + i);
+    mesh.lists.types.push_back(ElementType::Q4);
+    mesh.lists.offsets.push_back(static_cast<int>(mesh.lists.connectivity.size()));
   };
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j)

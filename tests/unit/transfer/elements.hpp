@@ -32,9 +32,9 @@ struct Case {
 template <int Dim>
 int inner_element(const Mesh<Dim>& mesh, ElementType type) {
   for (int e = 0; e < mesh.element_count(); ++e) {
-    bool inside = mesh.types[e] == type;
+    bool inside = mesh.type_of(e) == type;
     for (const int n : mesh.element_nodes(e)) {
-      for (const double x : mesh.nodes[n]) inside = inside && x > 0.2 && x < 0.8;
+      for (const double x : mesh.node(n)) inside = inside && x > 0.2 && x < 0.8;
     }
     if (inside) return e;
   }
@@ -101,7 +101,7 @@ Points<Dim> points_at(const Case<Dim>& of, const std::type_identity_t<std::vecto
         x[k] = of.mesh.grid->origin[k] + (cell[k] + 0.5 * (1 + xi[k])) * of.mesh.grid->spacing[k];
       return x;
     }
-    with_shape<Dim>(of.mesh.types[of.element], [&]<class Shape>(Shape) {
+    with_shape<Dim>(of.mesh.type_of(of.element), [&]<class Shape>(Shape) {
       const auto x_i = node_positions<Shape>(of.mesh, of.element);
       std::array<double, Shape::nodes> N;
       Shape::shape(xi, N);
@@ -155,7 +155,7 @@ template <int Dim>
 Points<Dim> random_points(const Case<Dim>& of, int count, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0.02, 0.98), any(-1, 1);
-  const bool simplex = of.mesh.types[of.element] == ElementType::T3 || of.mesh.types[of.element] == ElementType::T4;
+  const bool simplex = of.mesh.type_of(of.element) == ElementType::T3 || of.mesh.type_of(of.element) == ElementType::T4;
   std::vector<Vec<Dim>> at;
   for (int i = 0; i < count; ++i) {
     Vec<Dim> xi;

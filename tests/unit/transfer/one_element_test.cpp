@@ -45,7 +45,7 @@ void expect_sums(const Case<Dim>& of, const Points<Dim>& points) {
   Vec<Dim> p{}, p_points{}, F{}, centre{}, centre_points{};
   std::array<std::array<double, Dim>, Dim> xp{}, xp_points{}, xF{}, virial{};
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const auto& x = of.mesh.nodes[number[n]];
+    const auto& x = of.mesh.node(number[n]);
     m += nodes[n][0];
     for (int j = 0; j < Dim; ++j) {
       p[j] += nodes[n][1 + j];
@@ -100,11 +100,11 @@ void expect_linear_fields(const Case<Dim>& of, Points<Dim> points) {
     const auto number = of.mesh.element_nodes(e);
     std::array<transfer::Motion<Dim>, Basis::nodes> motion{};
     const std::array<double, 1024> no_correction{};
-    transfer::ElementMotion<Basis> element{{}, no_correction.data(), 1, of.mesh.size[e]};
+    transfer::ElementMotion<Basis> element{{}, no_correction.data(), 1, of.mesh.size_of(e)};
     for (int n = 0; n < Basis::nodes; ++n) {
       for (int j = 0; j < Dim; ++j) {
-        motion[n].dv(j) = field(0, j, of.mesh.nodes[number[n]]);
-        motion[n].du(j) = field(1, j, of.mesh.nodes[number[n]]);
+        motion[n].dv(j) = field(0, j, of.mesh.node(number[n]));
+        motion[n].du(j) = field(1, j, of.mesh.node(number[n]));
       }
       element.motion[n] = motion[n].row.data();
     }
@@ -138,7 +138,7 @@ std::vector<Vec<Dim>> corners_of(const Mesh<Dim>& mesh, int e) {
       corners.push_back(x);
     }
   } else {
-    for (const int n : mesh.element_nodes(e)) corners.push_back(mesh.nodes[n]);
+    for (const int n : mesh.element_nodes(e)) corners.push_back(mesh.node(n));
   }
   return corners;
 }
@@ -157,7 +157,7 @@ int corners_in_common(const Mesh<Dim>& mesh, int a, int b) {
 
 template <int Dim>
 bool is_box(const Mesh<Dim>& mesh, int e) {
-  return mesh.grid || mesh.types[e] == ElementType::Q4 || mesh.types[e] == ElementType::H8;
+  return mesh.grid || mesh.type_of(e) == ElementType::Q4 || mesh.type_of(e) == ElementType::H8;
 }
 
 /// Local coordinates of x in an element of the geometry.
@@ -169,7 +169,7 @@ Vec<Dim> local_place(const Mesh<Dim>& mesh, int e, const std::type_identity_t<Ve
     for (int d = 0; d < Dim; ++d) xi[d] = 2 * ((x[d] - mesh.grid->origin[d]) / mesh.grid->spacing[d] - cell[d]) - 1;
     return xi;
   }
-  with_shape<Dim>(mesh.types[e],
+  with_shape<Dim>(mesh.type_of(e),
                   [&]<class Shape>(Shape) { xi = Shape::local_coordinates(node_positions<Shape>(mesh, e), x); });
   return xi;
 }
@@ -240,7 +240,7 @@ void expect_same_from_both_sides(const Case<Dim>& of, bool smooth) {
 template <int Dim>
 void expect_all(const std::vector<Case<Dim>>& cases) {
   for (const auto& of : cases) {
-    const auto all = places<Dim>(of.mesh.types[of.element]);
+    const auto all = places<Dim>(of.mesh.type_of(of.element));
     const char* names[] = {"inside", "on a side", "on an edge", "at a corner"};
     for (std::size_t i = 0; i < all.size(); ++i) {
       SCOPED_TRACE(of.name + ", one point " + names[i]);

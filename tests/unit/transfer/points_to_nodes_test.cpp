@@ -103,7 +103,7 @@ void expect_sums(bool corrected, bool averaged, bool affine) {
       }
     }
     std::array<Vec<Dim>, K> places;
-    for (int i = 0; i < K; ++i) places[i] = of.mesh.nodes[of.mesh.element_nodes(of.element)[i]];
+    for (int i = 0; i < K; ++i) places[i] = of.mesh.node(of.mesh.element_nodes(of.element)[i]);
     transfer::general::NodeSums<Basis> nodes;
     double Omega = 0, m_v2 = 0;
     for (const int p : which) {

@@ -14,12 +14,12 @@ namespace scarp::gmsh {
 template <int Dim>
 class BoxTree {
  public:
-  explicit BoxTree(const Mesh<Dim>& mesh) : order_(mesh.types.size()) {
+  explicit BoxTree(const Mesh<Dim>& mesh) : order_(mesh.element_count()) {
     std::iota(order_.begin(), order_.end(), 0);
     own_.reserve(order_.size());
     for (int e = 0; e < mesh.element_count(); ++e) {
       Box box;
-      for (const int n : mesh.element_nodes(e)) box.add(mesh.nodes[n], mesh.nodes[n]);
+      for (const int n : mesh.element_nodes(e)) box.add(mesh.node(n), mesh.node(n));
       own_.push_back(box);
     }
     if (!order_.empty()) split(0, static_cast<int>(order_.size()));

@@ -94,7 +94,7 @@ template <class Shape>
 void check(const Scanner& file, const Element& element, const Mesh<Shape::dim>& mesh, std::vector<int>& nodes) {
   const auto positions = [&] {
     NodePositions<Shape> x;
-    for (int i = 0; i < Shape::nodes; ++i) x[i] = mesh.nodes[nodes[i]];
+    for (int i = 0; i < Shape::nodes; ++i) x[i] = mesh.node(nodes[i]);
     return x;
   };
   Heights heights = corner_heights<Shape>(positions());

@@ -78,7 +78,7 @@ void for_each_probe(const std::array<Vec<3>, 4>& x, F&& f) {
 
 template <int Dim>
 bool holds(const Mesh<Dim>& mesh, int e, const Vec<Dim>& x) {
-  return with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
+  return with_shape<Dim>(mesh.type_of(e), [&]<class Shape>(Shape) {
     return Shape::beyond(Shape::local_coordinates(node_positions<Shape>(mesh, e), x)) <= 0;
   });
 }
@@ -87,7 +87,7 @@ bool holds(const Mesh<Dim>& mesh, int e, const Vec<Dim>& x) {
 template <std::size_t Count, int Dim>
 std::array<Vec<Dim>, Count> corners_of(const Mesh<Dim>& mesh, const Side& side) {
   std::array<Vec<Dim>, Count> x;
-  for (std::size_t i = 0; i < Count; ++i) x[i] = mesh.nodes[side.nodes[i]];
+  for (std::size_t i = 0; i < Count; ++i) x[i] = mesh.node(side.nodes[i]);
   if (side.backwards) std::reverse(x.begin() + (Count == 2 ? 0 : 1), x.end());
   return x;
 }

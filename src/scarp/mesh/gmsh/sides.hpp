@@ -43,9 +43,9 @@ struct Side {
 template <int Dim>
 std::vector<Side> sorted_sides(const Mesh<Dim>& mesh) {
   std::vector<Side> sides;
-  sides.reserve(mesh.connectivity.size());
+  sides.reserve(mesh.lists.connectivity.size());
   for (int e = 0; e < mesh.element_count(); ++e)
-    with_shape<Dim>(mesh.types[e], [&]<class Shape>(Shape) {
+    with_shape<Dim>(mesh.type_of(e), [&]<class Shape>(Shape) {
       for (const auto& side : Shape::sides) sides.emplace_back(side, mesh.element_nodes(e), e);
     });
   std::sort(sides.begin(), sides.end());

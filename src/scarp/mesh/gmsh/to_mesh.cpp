@@ -83,8 +83,8 @@ void add_nodes(const Scanner& file, const std::vector<Node>& sorted, const std::
     if (number[i] < 0) continue;
     Vec<Dim> x;
     for (int k = 0; k < Dim; ++k) x[k] = sorted[i].x[k];
-    mesh.nodes.push_back(x);
-    for (int k = 0; k < Dim; ++k) extent = std::max(extent, std::abs(x[k] - mesh.nodes.front()[k]));
+    mesh.lists.nodes.push_back(x);
+    for (int k = 0; k < Dim; ++k) extent = std::max(extent, std::abs(x[k] - mesh.lists.nodes.front()[k]));
   }
   // Squares of lengths (cubes, in space) must stay within the range of numbers.
   if (!(extent < 1e100)) file.fail("the mesh is too large", fmt::format("{} m", extent), damaged, file.here());
@@ -99,16 +99,16 @@ void add_nodes(const Scanner& file, const std::vector<Node>& sorted, const std::
 template <int Dim>
 void add_elements(const Scanner& file, const std::vector<Node>& sorted, const std::vector<int>& number,
                   const std::vector<Element>& elements, Mesh<Dim>& mesh) {
-  mesh.offsets.push_back(0);
+  mesh.lists.offsets.push_back(0);
   std::vector<int> nodes;
   for (const Element& element : elements) {
     nodes.clear();
     for (int i = 0; i < nodes_of(element.type); ++i)
       nodes.push_back(number[find_node(sorted, element.nodes[i]) - sorted.data()]);
     check_shape(file, element, mesh, nodes);
-    mesh.types.push_back(element.type);
-    mesh.connectivity.insert(mesh.connectivity.end(), nodes.begin(), nodes.end());
-    mesh.offsets.push_back(static_cast<int>(mesh.connectivity.size()));
+    mesh.lists.types.push_back(element.type);
+    mesh.lists.connectivity.insert(mesh.lists.connectivity.end(), nodes.begin(), nodes.end());
+    mesh.lists.offsets.push_back(static_cast<int>(mesh.lists.connectivity.size()));
   }
 }
 
