@@ -11,6 +11,7 @@
 
 #include "ground.hpp"
 #include "scarp/exec/arrange.hpp"
+#include "scarp/mesh/chunks.hpp"
 #include "scarp/run/build.hpp"
 #include "scarp/step/step.hpp"
 
@@ -92,7 +93,9 @@ void order(benchmark::State& loop, bool arrange) {
     loop.PauseTiming();
     body.fields[0].blocks.front().points = start.front().points;
     loop.ResumeTiming();
-    sort_by_element(body.fields[0].blocks, body.mesh->element_count(), body.fields[0].active);
+    sort_by_element<2>(
+        body.fields[0].blocks, body.mesh->element_count(), [&](int e) { return chunk_of(*body.mesh, e); },
+        body.fields[0].active);
     if (arrange) exec::arrange_in_order(body.fields[0].blocks);
   }
   set_time_per_point(loop, body.point_count());

@@ -21,7 +21,7 @@ ARROWS = {
     "transfer": {"base", "tensor", "material", "mesh", "points"},
     "boundary": {"base", "tensor", "material", "mesh", "points"},
     "exec": {"base", "tensor", "material", "mesh", "points", "transfer"},
-    "comm": {"base", "tensor", "material", "mesh", "points"},
+    "comm": {"base"},
     "io": {"base", "tensor", "material", "mesh", "points"},
     "step": {"base", "tensor", "material", "mesh", "points", "transfer", "boundary", "exec", "comm"},
     "input": {"base", "tensor", "material", "lab", "mesh"},
@@ -64,6 +64,9 @@ def self_test():
         ("run/a.cpp", "#include <toml++/toml.h>", 1),
         ("step/a.cpp", "#include <mpi.h>", 1),
         ("step/a.cpp", '#include "scarp/io/vtu.hpp"', 1),
+        ("exec/a.cpp", '#include "scarp/comm/alone.hpp"', 1),
+        ("step/a.cpp", '#include "scarp/comm/alone.hpp"', 0),
+        ("comm/a.hpp", '#include "scarp/mesh/mesh.hpp"', 1),
         ("cellar/a.cpp", "", 1),
     ]
     for name, text, expected in cases:

@@ -87,23 +87,24 @@ Bits updated_bits_of(Body<Dim>& body) {
 
 /// A step as step.cpp makes it, to where its nodes have their displacements.
 template <int Dim>
-void displace_nodes(Body<Dim>& body, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
+void displace_nodes(Body<Dim>& body, double dt, const StepSettings& settings) {
   const Scheme& scheme = settings.scheme;
   for (auto& field : body.fields) {
     prepare_threads(field);
-    step::map_points_to_elements(body, field, settings, books);
-    step::accelerate_nodes(body, field, dt, settings, books);
+    std::fill(field.buffers.books.begin(), field.buffers.books.end(), BodyBooks<Dim>());
+    step::map_points_to_elements(body, field, settings);
+    step::accelerate_nodes(body, field, dt, settings);
     if (scheme.two_terms) {
-      step::sum_with_mass_matrix<2 * Dim>(body, field, 0, books);
-      step::filter_changes(field, dt, settings, books);
-      step::sum_with_mass_matrix<2 * Dim>(body, field, 0, books);
+      step::sum_with_mass_matrix<2 * Dim>(body, field, 0);
+      step::filter_changes(field, dt, settings);
+      step::sum_with_mass_matrix<2 * Dim>(body, field, 0);
     } else {
-      step::sum_with_mass_matrix<Dim>(body, field, 0, books);
+      step::sum_with_mass_matrix<Dim>(body, field, 0);
     }
-    step::velocities_of_nodes(body, field, dt, settings, books);
+    step::velocities_of_nodes(body, field, dt, settings);
     if (scheme.filters_motion()) {
-      step::sum_with_mass_matrix<2 * Dim>(body, field, Dim, books);
-      step::filter_displacements(body, field, settings, books);
+      step::sum_with_mass_matrix<2 * Dim>(body, field, Dim);
+      step::filter_displacements(body, field, settings);
     }
   }
 }
@@ -129,8 +130,7 @@ template <int Dim>
 Met expect_same_bits(Body<Dim> body, int steps, const StepSettings& settings, double part = 0.3) {
   const double dt = part * critical_time_step(body);
   for (int s = 0; s < steps; ++s) advance(body, dt, settings);
-  StepBooks<Dim> books;
-  displace_nodes(body, dt, settings, books);
+  displace_nodes(body, dt, settings);
 
   const Bits before = bits_of(body), had = updated_bits_of(body);
   BodyTrial<Dim> trial, other;
@@ -155,10 +155,10 @@ Met expect_same_bits(Body<Dim> body, int steps, const StepSettings& settings, do
   EXPECT_TRUE(before == bits_of(body)) << "a trial that is taken back";
 
   for (auto& field : body.fields) {
-    if (step::uses_patches(body, settings)) step::find_dilations(body, field, settings, books);
-    step::strain_stress_and_motion(body, field, dt, settings, books);
+    if (step::uses_patches(body, settings)) step::find_dilations(body, field, settings);
+    step::strain_stress_and_motion(body, field, dt, settings);
   }
-  step::close_books(dt, settings, books);
+  const auto books = step::close_books(body, dt, settings);
   EXPECT_TRUE(first == updated_bits_of(body)) << "the fused step has other bits";
   EXPECT_EQ(trial.stress.work, books.stress.work);
   EXPECT_EQ(trial.stress.damping, books.stress.damping);

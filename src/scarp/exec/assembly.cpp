@@ -4,21 +4,8 @@
 
 namespace scarp::exec {
 
-namespace {
-
-/// Chunks have few places in common where they are large, and threads share them evenly where there are many: about 32,
-/// if that leaves them this large.
-constexpr int least_chunk = 64, most_chunk = 1024;
-
-int chunk_for(int elements) {
-  return std::clamp((elements / 32 + least_chunk - 1) / least_chunk * least_chunk, least_chunk, most_chunk);
-}
-
-}  // namespace
-
 template <int Dim>
 void Assembly::rebuild(const Mesh<Dim>& mesh, const ActiveElements& active) {
-  chunk_ = chunk_for(active.size());
   for (const int n : node_) latest_[n] = {};
   latest_.resize(mesh.node_count());
   row_ = 0;
@@ -27,12 +14,12 @@ void Assembly::rebuild(const Mesh<Dim>& mesh, const ActiveElements& active) {
   // alike.
   node_.clear();
   of_place_.clear();
-  chunk_begin_.clear();
+  ends_.clear();
   local_.resize(static_cast<std::size_t>(active.size()) * row_);
   nodes_.resize(local_.size());
   int places = 0;
   for (int slot = 0; slot < active.size(); ++slot) {
-    if (slot % chunk_ == 0) chunk_begin_.push_back(places);
+    if (slot == 0 || active.chunk[slot] != active.chunk[slot - 1]) ends_.push_back({slot, places, size()});
     int* local = local_.data() + static_cast<std::size_t>(slot) * row_;
     int* nodes = nodes_.data() + static_cast<std::size_t>(slot) * row_;
     for (const int n : mesh.element_nodes(active.element[slot])) {
@@ -41,7 +28,7 @@ void Assembly::rebuild(const Mesh<Dim>& mesh, const ActiveElements& active) {
         node_.push_back(n);
         latest.position = size();
       }
-      if (latest.place <= chunk_begin_.back()) {  // the chunk has none for this node yet
+      if (latest.place <= ends_.back().place) {  // the chunk has none for this node yet
         latest.place = ++places;
         of_place_.push_back(latest.position - 1);
       }
@@ -49,7 +36,7 @@ void Assembly::rebuild(const Mesh<Dim>& mesh, const ActiveElements& active) {
       *nodes++ = latest.position - 1;
     }
   }
-  chunk_begin_.push_back(places);
+  ends_.push_back({active.size(), places, size()});
 
   begin_.assign(node_.size() + 2, 0);
   for (const int k : of_place_) ++begin_[k + 2];
@@ -62,7 +49,7 @@ void Assembly::reserve(std::size_t elements, std::size_t row) {
   const std::size_t rows = elements * row;
   for (auto* list : {&local_, &nodes_, &node_, &place_, &of_place_}) list->reserve(rows);
   begin_.reserve(rows + 2);
-  chunk_begin_.reserve(elements / least_chunk + 2);
+  ends_.reserve(elements + 1);
 }
 
 template void Assembly::rebuild<2>(const Mesh<2>&, const ActiveElements&);

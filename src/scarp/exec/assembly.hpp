@@ -1,6 +1,7 @@
-// From elements to nodes without races: the elements are cut into chunks, each with places of its own for the nodes
-// that it touches. The elements of a chunk add to its places one after the other, and every node gathers from its
-// places in the order of the chunks. The result is the same to the last bit on any number of threads.
+// From elements to nodes without races: each chunk of elements (mesh/chunks.hpp) has places of its own for the nodes that
+// it touches. The elements of a chunk add to its places one after the other, and every node gathers from its places in
+// the order of the chunks. The result is the same to the last bit on any number of threads, and a chunk's part of it
+// depends on the chunk alone.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +13,15 @@
 
 namespace scarp::exec {
 
+/// What is a chunk's of the active elements' slots, of the places, and of the active nodes: those that it is the first
+/// to touch. From `first` to `last` − 1 each.
+struct Chunk {
+  struct Range {
+    int first, last;
+  };
+  Range slots, places, nodes;
+};
+
 /// The active nodes with their places, and the places of the active elements' local nodes.
 class Assembly {
  public:
@@ -22,11 +32,15 @@ class Assembly {
   /// Its number in the mesh.
   int node(int k) const { return node_[k]; }
   /// Number of places of all chunks.
-  std::size_t places() const { return chunk_begin_.empty() ? 0 : static_cast<std::size_t>(chunk_begin_.back()); }
+  std::size_t places() const { return static_cast<std::size_t>(ends_.back().place); }
 
-  /// The places of chunk c: first to last − 1.
-  int first_place(int c) const { return chunk_begin_[c]; }
-  int last_place(int c) const { return chunk_begin_[c + 1]; }
+  /// The chunks that have active elements, in the order of their numbers.
+  int chunks() const { return static_cast<int>(ends_.size()) - 1; }
+  Chunk chunk(int c) const {
+    const Ends &from = ends_[c], &to = ends_[c + 1];
+    return {{from.slot, to.slot}, {from.place, to.place}, {from.node, to.node}};
+  }
+
   /// The places of the local nodes of the active element in a slot.
   const int* places_of(int slot) const { return local_.data() + static_cast<std::size_t>(slot) * row_; }
 
@@ -39,9 +53,6 @@ class Assembly {
     for (int l = begin_[k]; l < begin_[k + 1]; ++l) f(place_[l]);
   }
 
-  /// Number of elements in a chunk; the last may have fewer.
-  int chunk() const { return chunk_; }
-
   /// Makes it anew for other active elements; what it costs is theirs only.
   template <int Dim>
   void rebuild(const Mesh<Dim>& mesh, const ActiveElements& active);
@@ -50,8 +61,11 @@ class Assembly {
   void reserve(std::size_t elements, std::size_t row);
 
  private:
-  int row_ = 0, chunk_ = 1;
-  std::vector<int> chunk_begin_;           ///< of each chunk: its first place
+  struct Ends {
+    int slot = 0, place = 0, node = 0;
+  };
+  int row_ = 0;
+  std::vector<Ends> ends_{Ends{}};         ///< where chunk c begins, and the one before ends
   std::vector<int> local_;                 ///< rows of the active elements: places of their local nodes
   std::vector<int> nodes_;                 ///< rows of the active elements: their local nodes among the active ones
   std::vector<int> node_, begin_, place_;  ///< active nodes, and their places

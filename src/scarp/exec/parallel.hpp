@@ -1,5 +1,5 @@
-// Loops over many threads whose results do not depend on their number: work is cut into chunks of fixed size, and sums
-// over chunks are taken in the order of the chunks. The only place with OpenMP.
+// Loops over many threads whose results do not depend on their number: work is cut into pieces that are the same for any
+// number of threads, and sums over them are taken in their order, or exact. The only place with OpenMP.
 #pragma once
 
 #include <algorithm>
@@ -27,29 +27,37 @@ void for_each(int count, F&& f) {
 int thread_count();
 int thread_number();
 
-/// f(first, last, sum) for chunks [first, last) of 0 ≤ i < count, each with a sum of its own; total += those sums, in
-/// order. `partial` keeps them, so that nothing is allocated in a step. Chunks are dealt out to threads in the same way
-/// each time. An exception of f is thrown on after the loop, that of the first chunk in order.
-template <class Sum, class F>
-void sum_over_chunks(int count, int chunk, std::vector<Sum>& partial, Sum& total, F&& f) {
-  const int chunks = (count + chunk - 1) / chunk;
-  if (partial.size() < static_cast<std::size_t>(chunks)) partial.resize(static_cast<std::size_t>(chunks));
-  int first_thrown = chunks;
+/// f(i) for pieces of work 0 ≤ i < count that are worth a thread each, dealt out in the same way each time: neighbours
+/// to the same thread. An exception of f is thrown on after the loop, that of the first piece.
+template <class F>
+void for_each_piece(int count, F&& f) {
+  int first_thrown = count;
   std::exception_ptr thrown;
-#pragma omp parallel for schedule(static) if (chunks > 1)
-  for (int c = 0; c < chunks; ++c) {
-    partial[c] = Sum{};
+#pragma omp parallel for schedule(static) if (count > 1)
+  for (int i = 0; i < count; ++i) {
     try {
-      f(c * chunk, std::min(count, (c + 1) * chunk), partial[c]);
+      f(i);
     } catch (...) {
 #pragma omp critical
-      if (c < first_thrown) {
-        first_thrown = c;
+      if (i < first_thrown) {
+        first_thrown = i;
         thrown = std::current_exception();
       }
     }
   }
   if (thrown) std::rethrow_exception(thrown);
+}
+
+/// f(first, last, sum) for pieces [first, last) of 0 ≤ i < count, each with a sum of its own; total += those sums, in
+/// order. `partial` keeps them, so that nothing is allocated in a step.
+template <class Sum, class F>
+void sum_over_chunks(int count, int chunk, std::vector<Sum>& partial, Sum& total, F&& f) {
+  const int chunks = (count + chunk - 1) / chunk;
+  if (partial.size() < static_cast<std::size_t>(chunks)) partial.resize(static_cast<std::size_t>(chunks));
+  for_each_piece(chunks, [&](int c) {
+    partial[c] = Sum{};
+    f(c * chunk, std::min(count, (c + 1) * chunk), partial[c]);
+  });
   for (int c = 0; c < chunks; ++c) total += partial[c];
 }
 

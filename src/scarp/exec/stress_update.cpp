@@ -12,6 +12,36 @@ namespace {
 
 constexpr int W = lanes_of<Batch>;
 
+/// The square of c/(k h) + |v|/h: its inverse is the time that a compression wave (with the factor k of the scheme) and
+/// the point itself need to cross the point's element. `per_limit2` is 1/k² where that is the same for all points. One
+/// text for all that ask, whatever comes with a point in its batch, which a compiler can round in one way only: a
+/// product that is added to is fused, and that with 2 is exact.
+[[gnu::always_inline]] inline Batch crossing_rate2(const WaveSettings& waves, double per_limit2, const Batch& modulus,
+                                                   const Batch& per_mass, const Batch& speed2) {
+  const Batch rate2 = modulus * per_mass, limit2 = waves.time > 0 ? waves.per_limit2(rate2) : Batch(per_limit2);
+  return fma(rate2, limit2, speed2) + Batch(2.0) * sqrt(rate2 * limit2 * speed2);
+}
+
+/// The volume that each of some points will have when its gap has closed, over its present one.
+template <class State>
+Batch volumes_when_closed(const State& s) {
+  if constexpr (HasGap<State>) {
+    if (!any(s.gap > Batch(0.0))) return Batch(1.0);
+    std::array<double, batch_lanes> share;
+    s.gap.store_unaligned(share.data());
+    for (double& x : share) x = volume_when_closed(x);
+    return Batch::load_unaligned(share.data());
+  }
+  return Batch(1.0);
+}
+
+/// The modulus that bounds the time step.
+template <class Model, class State>
+Batch bounding_modulus(const Model& model, const State& s, const WaveSettings& waves) {
+  const Batch modulus = model.p_wave_modulus(s);
+  return waves.open_are_soft ? modulus * volumes_when_closed(s) : modulus;
+}
+
 /// The stress update of points of one block with one law; the only text that knows both sign conventions: tension
 /// positive in the arrays of the points, compression positive in the law.
 template <class Model, int Dim>
@@ -44,7 +74,7 @@ class Update {
     books_.damping += xsimd::hadd(damping_);
     std::array<double, W> rate2;
     fastest2_.store_unaligned(rate2.data());
-    const double most = *std::max_element(rate2.begin(), rate2.end());
+    const double most = std::max(most2_, *std::max_element(rate2.begin(), rate2.end()));
     if (most > 0) books_.critical_dt = std::min(books_.critical_dt, 1 / std::sqrt(most));
   }
 
@@ -78,7 +108,8 @@ class Update {
     const Batch work = increment(increments_.volume, at) * Batch(0.5) * dot(rotated.sigma + trial.state.sigma, deps);
     const Batch modulus = model_.p_wave_modulus(trial.state);
     const auto stiff = modulus > Batch(0.0);
-    const Batch rate2 = crossing_rate2(modulus, at);
+    const Batch rate2 = crossing_rate2(waves_, per_limit2_, modulus, increment(increments_.per_mass, at),
+                                       increment(increments_.speed2, at));
     const unsigned noted = bits_of(trial.flags.corrected || trial.flags.on_floor || trial.flags.separated || !stiff);
     if (done == first_bits(W) && (noted & present) == 0) [[likely]] {
       const auto keep = [&](const auto& lanes) {
@@ -107,15 +138,15 @@ class Update {
         record(p.point(l), 1,
                {trial.flags.corrected.get(lane), trial.flags.on_floor.get(lane), trial.flags.separated.get(lane), true},
                IntegrationEnd::done);
-        bound_time_step(modulus.get(lane) * closed_share(trial.state, lane), at + l);
       } else {
         straggler(p.point(l), at + l);
       }
     }
+    bound_time_step(trial.state, done, at);
   }
 
   /// σ* of the points whose trial is `good`, to its columns; returns what that damps. A separated point is felt as it
-  /// is.
+  /// is. Products are fused by hand: a compiler would do so for points that lie beside each other only.
   template <class Lanes>
   [[gnu::always_inline]] Batch look_ahead(const Lanes& p, const Sym<Batch, N>& old, const Sym<Batch, N>& rotated,
                                           const Trial<State<Batch>, Batch>& trial, const Mask<Batch>& good,
@@ -127,9 +158,9 @@ class Update {
     for (int c = 0; c < N; ++c) {
       const auto& ahead = points_.sigma_ahead[c];
       if (ahead.empty()) continue;
-      const Batch change = share * (now.sigma[c] - rotated[c]), before = p.load(ahead);
-      rate = fma(change - before - old[c], deps[c], rate);
-      p.store(select(good, -(now.sigma[c] + change), before), to_.sigma_ahead[c]);
+      const Batch change = now.sigma[c] - rotated[c], before = p.load(ahead);
+      rate = fma(fma(share, change, -before) - old[c], deps[c], rate);
+      p.store(select(good, -fma(share, change, now.sigma[c]), before), to_.sigma_ahead[c]);
     }
     return increment(increments_.volume, at) * Batch(0.5) * rate;
   }
@@ -159,7 +190,9 @@ class Update {
           if (damped_) look_ahead(p, at, start, end, report);
           store_state(end, p);
           record(p, report.substeps, report.flags, report.end);
-          bound_time_step(model_.p_wave_modulus(end) * closed_share(end), at);
+          State<Batch> in_all_lanes;
+          for_each_component([](Batch& x, const double& y) { x = Batch(y); }, in_all_lanes, end);
+          bound_time_step(in_all_lanes, 1, at);
         },
         settings_, 0.5);
     straggler_count_ = 0;
@@ -203,36 +236,25 @@ class Update {
     books_.separated += flags.separated;
     books_.on_floor += flags.on_floor;
     books_.corrected += flags.corrected;
-    if (failed && books_.failures++ == 0) {
-      books_.failed_id = points_.id[p];
-      books_.failed_end = end;
-    }
+    if (!failed) return;
+    ++books_.failures;
+    books_.first_failed.keep_first({0, points_.id[p], end});
   }
 
-  /// Ω of a point over what it has now, when it will have stiffness: what is open has none before it has closed.
-  double closed_share(const State<double>& s) const { return waves_.open_are_soft ? volume_when_closed(s) : 1; }
-  double closed_share(const State<Batch>& s, std::size_t lane) const {
-    if constexpr (HasGap<State<Batch>>) {
-      if (waves_.open_are_soft) return volume_when_closed(s.gap.get(lane));
+  /// Of the points of a batch whose bits are set.
+  void bound_time_step(const State<Batch>& s, unsigned which, int at) {
+    const Batch modulus = bounding_modulus(model_, s, waves_);
+    const Batch rate2 = crossing_rate2(waves_, per_limit2_, modulus, increment(increments_.per_mass, at),
+                                       increment(increments_.speed2, at));
+    for (int l = 0; l < W; ++l) {
+      if (!(which >> l & 1u)) continue;
+      const auto lane = static_cast<std::size_t>(l);
+      if (modulus.get(lane) > 0) {
+        most2_ = std::max(most2_, rate2.get(lane));
+      } else {
+        ++books_.no_stiffness;
+      }
     }
-    return 1;
-  }
-
-  /// The square of c/(k h) + |v|/h: its inverse is the time that a compression wave (with the factor k of the scheme)
-  /// and the point itself need to cross the point's element.
-  Batch crossing_rate2(const Batch& modulus, int at) const {
-    const Batch rate2 = modulus * increment(increments_.per_mass, at), v2 = increment(increments_.speed2, at);
-    const Batch c2 = rate2 * (waves_.time > 0 ? waves_.per_limit2(rate2) : Batch(per_limit2_));
-    return c2 + v2 + Batch(2.0) * sqrt(c2 * v2);
-  }
-  void bound_time_step(double modulus, int at) {
-    if (!(modulus > 0)) {
-      ++books_.no_stiffness;
-      return;
-    }
-    const double rate2 = modulus * increments_.per_mass[at];
-    const double rate = std::sqrt(rate2 * waves_.per_limit2(rate2)) + std::sqrt(increments_.speed2[at]);
-    books_.critical_dt = std::min(books_.critical_dt, 1 / rate);
   }
 
   [[gnu::always_inline]] static Batch increment(const Column& column, int at) {
@@ -279,26 +301,21 @@ class Update {
   std::array<Straggler, 64> stragglers_;
   int straggler_count_ = 0;
   Batch work_ = Batch(0.0), damping_ = Batch(0.0), fastest2_ = Batch(0.0);
+  double most2_ = 0;  ///< of points that fastest2_ leaves out
 };
 
 }  // namespace
 
-StressBooks& StressBooks::operator+=(const StressBooks& other) {
-  work += other.work;
-  damping += other.damping;
+void StressBooks::add_counts(const StressBooks& other) {
   critical_dt = std::min(critical_dt, other.critical_dt);
   substeps += other.substeps;
   most_substeps = std::max(most_substeps, other.most_substeps);
-  if (failures == 0 && other.failures > 0) {
-    failed_id = other.failed_id;
-    failed_end = other.failed_end;
-  }
+  first_failed.keep_first(other.first_failed);
   failures += other.failures;
   corrected += other.corrected;
   separated += other.separated;
   on_floor += other.on_floor;
   no_stiffness += other.no_stiffness;
-  return *this;
 }
 
 namespace {
@@ -341,22 +358,34 @@ template <int Dim>
 double critical_time_step(const Block<Dim>& block, const Mesh<Dim>& mesh, const ActiveElements& active,
                           const Column& weight, const Column& least_per_mass, const WaveSettings& waves) {
   const auto& points = block.points;
-  double dt = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < block.size(); ++i) {
-    with_state(block, i, [&](const auto& model, const auto& state) {
-      const double modulus = model.p_wave_modulus(state) * (waves.open_are_soft ? volume_when_closed(state) : 1);
-      if (!(modulus > 0)) return;
-      double v2 = 0;
-      for (int j = 0; j < Dim; ++j) v2 += points.v[j][i] * points.v[j][i];
-      const int e = points.element[i];
-      const int slot = active.slot[e];
-      const double h = mesh.size_of(e), least = least_per_mass.empty() ? 0.0 : least_per_mass[slot] * h * h;
-      const double per_mass = std::max(std::max(1.0, weight[slot]) * points.volume[i] / points.mass[i], least);
-      const double c2 = modulus * per_mass;
-      dt = std::min(dt, h / (std::sqrt(c2 * waves.per_limit2(c2 / (h * h))) + std::sqrt(v2)));
-    });
-  }
-  return dt;
+  const double per_limit2 = waves.per_limit2(1.0);
+  double most2 = 0;
+  std::visit(
+      [&]<class Model>(const Model& model) {
+        using State = typename Model::template State<Batch, sym_size<Dim>>;
+        for_each_batch<Batch>({block.order.data(), block.size()}, [&](const Lanes<Batch>& p, int) {
+          std::array<double, batch_lanes> per_mass{}, per_size2{};
+          for (int l = 0; l < p.count(); ++l) {  // as nodes_to_points() has them
+            const int i = p.point(l), e = points.element[i], slot = active.slot[e];
+            per_size2[l] = 1 / (mesh.size_of(e) * mesh.size_of(e));
+            const double stiffer = weight[slot] > 1 ? weight[slot] * per_size2[l] : per_size2[l];
+            per_mass[l] = stiffer * points.volume[i] / points.mass[i];
+            if (!least_per_mass.empty()) per_mass[l] = std::max(per_mass[l], least_per_mass[slot]);
+          }
+          Batch v2(0.0);
+          for (const auto& v : points.v) v2 = fma(p.load(v), p.load(v), v2);
+          const auto load = [&](const Column& column) { return p.load(column); };
+          const Batch modulus = bounding_modulus(model, loaded<Dim, State>(model, block, load), waves);
+          const Batch rate2 = crossing_rate2(waves, per_limit2, modulus, Batch::load_unaligned(per_mass.data()),
+                                             Batch::load_unaligned(per_size2.data()) * v2);
+          for (int l = 0; l < p.count(); ++l) {
+            const auto lane = static_cast<std::size_t>(l);
+            if (modulus.get(lane) > 0) most2 = std::max(most2, rate2.get(lane));
+          }
+        });
+      },
+      block.model);
+  return most2 > 0 ? 1 / std::sqrt(most2) : std::numeric_limits<double>::infinity();
 }
 
 template void update_stresses<2>(Block<2>&, PointRange, const PointIncrements<2>&, int, double,

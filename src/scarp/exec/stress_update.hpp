@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -42,7 +43,19 @@ struct WaveSettings {
   }
 };
 
-/// What a stress update did, summed over points in a fixed order.
+/// A point whose stress update failed. The first of several is that of the lowest region and id.
+struct FailedPoint {
+  int region = 0;  ///< its place among the blocks of the body; 0 where only one is known
+  int id = -1;     ///< -1: none
+  IntegrationEnd end = IntegrationEnd::done;
+
+  void keep_first(const FailedPoint& other) {
+    const bool earlier = id < 0 || std::tie(other.region, other.id) < std::tie(region, id);
+    if (other.id >= 0 && earlier) *this = other;
+  }
+};
+
+/// What stress updates did.
 struct StressBooks {
   double damping = 0;  ///< Σ Ω ½ (σ* − σ at t, and at t + dt) : dε
   double work = 0;     ///< Σ Ω ½ (σ^t + σ^{t+dt}) : dε, with σ^t rotated with the body
@@ -50,10 +63,10 @@ struct StressBooks {
   std::int64_t substeps = 0;
   int most_substeps = 0;
   std::int64_t failures = 0, corrected = 0, separated = 0, on_floor = 0, no_stiffness = 0;
-  int failed_id = -1;  ///< of the first failed point
-  IntegrationEnd failed_end = IntegrationEnd::done;
+  FailedPoint first_failed;
 
-  StressBooks& operator+=(const StressBooks& other);
+  /// Adds counts and extremes, no sums.
+  void add_counts(const StressBooks& other);
 };
 
 /// Updates stress, state, shear strain and flags of some points of a block over the time dt, from their strain and spin

@@ -4,56 +4,12 @@
 #include <cstdint>
 #include <utility>
 
+#include "scarp/mesh/hilbert.hpp"
+
 namespace scarp {
 namespace {
 
 constexpr int levels = 20;
-
-/// Place of the cell (x, y), of 2^levels cells a side, on the Hilbert curve (Hilbert 1891): at each level the
-/// quadrants follow as (0,0), (0,1), (1,1), (1,0), the first and last of them turned.
-std::uint64_t hilbert_place(const std::array<std::uint32_t, 2>& cell) {
-  auto [x, y] = cell;
-  std::uint64_t place = 0;
-  for (int level = levels - 1; level >= 0; --level) {
-    const std::uint32_t right = (x >> level) & 1u, up = (y >> level) & 1u;
-    place = 4 * place + (3 * right ^ up);
-    if (up == 0) {
-      if (right == 1) {
-        x = ~x;
-        y = ~y;
-      }
-      std::swap(x, y);
-    }
-  }
-  return place;
-}
-
-/// The same in space, where the eight parts of a cube follow in the order of a Gray code, so that each shares a face
-/// with the next; each part is mirrored and has axes exchanged so that its curve begins where the last one ended
-/// (J. Skilling, Programming the Hilbert curve, AIP Conf. Proc. 707 (2004) 381).
-std::uint64_t hilbert_place(std::array<std::uint32_t, 3> cell) {
-  for (std::uint32_t bit = 1u << (levels - 1); bit > 1; bit >>= 1) {
-    const std::uint32_t below = bit - 1;
-    for (std::uint32_t& coordinate : cell) {
-      if (coordinate & bit) {
-        cell[0] ^= below;
-      } else {
-        const std::uint32_t differ = (cell[0] ^ coordinate) & below;
-        cell[0] ^= differ;
-        coordinate ^= differ;
-      }
-    }
-  }
-  cell[1] ^= cell[0];
-  cell[2] ^= cell[1];
-  std::uint32_t turned = 0;
-  for (std::uint32_t bit = 1u << (levels - 1); bit > 1; bit >>= 1)
-    if (cell[2] & bit) turned ^= bit - 1;
-  std::uint64_t place = 0;
-  for (int level = levels - 1; level >= 0; --level)
-    for (const std::uint32_t coordinate : cell) place = 2 * place + (((coordinate ^ turned) >> level) & 1u);
-  return place;
-}
 
 template <int Dim>
 std::vector<Vec<Dim>> centres(const Mesh<Dim>& mesh) {
@@ -85,7 +41,7 @@ std::vector<int> elements_along_curve(const Mesh<Dim>& mesh) {
   for (int e = 0; e < mesh.element_count(); ++e) {
     std::array<std::uint32_t, Dim> cell;
     for (int k = 0; k < Dim; ++k) cell[k] = static_cast<std::uint32_t>((centre[e][k] - low[k] + margin) * cells);
-    places.emplace_back(hilbert_place(cell), e);
+    places.emplace_back(hilbert_place(cell, levels), e);
   }
   std::sort(places.begin(), places.end());
   std::vector<int> order;

@@ -17,6 +17,13 @@ struct PointRange {
   int count;
 };
 
+/// Do the points of a range lie beside each other in the arrays?
+inline bool lie_beside(const int* order, int count) {
+  int off = 0;
+  for (int l = 1; l < count; ++l) off |= order[l] - order[0] - l;
+  return off == 0;
+}
+
 /// The points order[0] ... order[count - 1] in the lanes of a batch T, count ≤ its size. Where they lie beside each
 /// other in the arrays (sorted points do, all but a few) their values are loaded at once; otherwise one by one. Lanes
 /// without a point are zero, so that they have no mass and no volume.
@@ -25,11 +32,7 @@ class Lanes {
  public:
   static constexpr int W = lanes_of<T>;
 
-  Lanes(const int* order, int count) : order_(order), count_(count) {
-    int off = 0;
-    for (int l = 1; l < count; ++l) off |= order[l] - order[0] - l;
-    beside_ = off == 0;
-  }
+  Lanes(const int* order, int count) : order_(order), count_(count), beside_(lie_beside(order, count)) {}
 
   int count() const { return count_; }
   int point(int lane) const { return order_[lane]; }
@@ -109,14 +112,13 @@ inline void for_each_batch(const PointRange& range, F&& f) {
   }
 }
 
-/// The same for the points of one element, which ascend in the arrays; f is called with Lanes or WholeLanes.
+/// The same for the points of one element, which lie beside each other as a rule; f is called with Lanes or WholeLanes.
 template <class T, class F>
 inline void for_each_batch_of_element(const PointRange& range, F&& f) {
   constexpr int W = lanes_of<T>;
   if (range.count == 0) return;
-  const bool beside = range.order[range.count - 1] - range.order[0] == range.count - 1;
   int k = 0;
-  if (beside) {
+  if (lie_beside(range.order, range.count)) {
     for (; k + W <= range.count; k += W) f(WholeLanes<T>(range.order[0] + k), k);
   }
   for (; k < range.count; k += W) f(Lanes<T>(range.order + k, range.count - k < W ? range.count - k : W), k);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -98,6 +100,18 @@ Vec<Dim> position_of(const Points<Dim>& points, int i) {
   return x;
 }
 
+/// |v_p|² and ½ m_p |v_p|²
+template <int Dim>
+double speed2_of(const Points<Dim>& points, int i) {
+  double v2 = 0;
+  for (int j = 0; j < Dim; ++j) v2 += points.v[j][i] * points.v[j][i];
+  return v2;
+}
+template <int Dim>
+double kinetic_energy_of(const Points<Dim>& points, int i) {
+  return 0.5 * points.mass[i] * speed2_of(points, i);
+}
+
 /// The points of one region, with their law and its state.
 template <int Dim>
 struct Block {
@@ -121,7 +135,7 @@ struct Block {
   std::vector<Column> state;  ///< columns of the model's state without sigma; compression positive, as in the model.
                               ///< With a length the last three are κ, κ̂ and dκ̂/dt
 
-  // Order by element, kept by sort_by_element(): the points of the active element in slot s are
+  // Order by element and id, kept by sort_by_element(): the points of the active element in slot s are
   // order[begin[s]] ... order[begin[s + 1] - 1].
   std::vector<int> order, begin;
   std::tuple<Column, std::vector<int>, std::vector<std::uint8_t>> spare;  ///< for exec::arrange_in_order()
@@ -175,20 +189,37 @@ void reserve_order(Block<Dim>& block, std::size_t elements) {
   std::apply([points](auto&... column) { (column.reserve(points), ...); }, block.spare);
 }
 
-/// The elements that hold points, ascending, and the place (slot) of each element in that list.
+/// The number of the chunk of an element (mesh/chunks.hpp).
+using ChunkOfElement = std::function<std::uint64_t(int)>;
+
+/// The elements that hold points, ascending by chunk and number, and the place (slot) of each element in that list.
 struct ActiveElements {
-  std::vector<int> element;  ///< of each slot
-  MostlyNone<int> slot;      ///< of each element of the mesh; -1 where it holds no point
-  std::vector<int> fresh;    ///< elements that were not active before; scratch of sort_by_element()
+  /// An element with the chunk that it belongs to: what comes first in memory and in sums.
+  struct Place {
+    std::uint64_t chunk;
+    int element;
+    auto operator<=>(const Place&) const = default;
+  };
+
+  std::vector<int> element;          ///< of each slot
+  std::vector<std::uint64_t> chunk;  ///< of each slot
+  MostlyNone<int> slot;              ///< of each element of the mesh; -1 where it holds no point
+  // Scratch of sort_by_element():
+  std::vector<Place> fresh;  ///< elements that were not active before
+  std::vector<int> end;      ///< of each slot: where its next point goes
 
   int size() const { return static_cast<int>(element.size()); }
+  /// Room for so many.
+  void reserve(std::size_t elements);
 };
 
-/// Orders the points of every block by element after points have changed element or gone (stable: within an element by
-/// position in the arrays), and brings the active elements up to date; costs nothing for elements without points.
-/// Returns whether the active elements are others than before.
+/// Orders the points of every block by element, and in an element by id, after points have changed element or gone, and
+/// brings the active elements up to date. The order is that of the points as they are: nothing of how they lie in the
+/// arrays, or came there, is left in it. Ids differ within a block. Returns whether the active elements are others than
+/// before.
 template <int Dim>
-bool sort_by_element(std::vector<Block<Dim>>& blocks, int element_count, ActiveElements& active);
+bool sort_by_element(std::vector<Block<Dim>>& blocks, int element_count, const ChunkOfElement& chunk_of,
+                     ActiveElements& active);
 
 /// Takes out the points of a block for which gone[i] is set; the others keep their order.
 template <int Dim>

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "scarp/base/error.hpp"
+#include "scarp/comm/alone.hpp"
 #include "scarp/exec/stress_update.hpp"
 #include "scarp/lab/k0.hpp"
 
@@ -39,13 +41,15 @@ class RegionK0 {
       return;
     }
     find_history(block, region);
-    double least = 0, largest = 0;
+    double least = std::numeric_limits<double>::infinity(), largest = 0;
     for (int i = 0; i < block.size(); ++i) {
       const double vertical = overburden.vertical_stress(position_of(block.points, i));
       largest = std::max(largest, vertical);
-      if (vertical > 0 && (least == 0 || vertical < least)) least = vertical;
+      if (vertical > 0) least = std::min(least, vertical);
     }
-    if (!(least > 0)) return;  // no weight, no stress
+    least = comm::least_of_all(least);
+    largest = comm::most_of_all(largest);
+    if (!(largest > 0)) return;  // no weight, no stress
     const int count = 1 + static_cast<int>(std::ceil(std::log(largest / least) / std::log(1.5)));
     for (int k = 0; k < count; ++k) {
       const double vertical = count > 1 ? least * std::pow(largest / least, k / (count - 1.0)) : least;

@@ -1,8 +1,11 @@
 #include "scarp/run/removal.hpp"
 
+#include <cstdint>
 #include <limits>
 
 #include "scarp/base/error.hpp"
+#include "scarp/base/exact_sum.hpp"
+#include "scarp/comm/alone.hpp"
 
 namespace scarp::run {
 
@@ -26,6 +29,8 @@ void Removal<Dim>::take_due(double time, Body<Dim>& body, Ledger<Dim>& ledger) {
   // bottom.
   const double bottom = finished() ? -std::numeric_limits<double>::infinity()
                                    : box_.high[up] - (box_.high[up] - box_.low[up]) * done_ / input_.lifts;
+  std::int64_t count = 0;
+  ExactSum mass, kinetic_energy;
   for (auto& block : body.blocks()) {
     const auto& points = block.points;
     std::vector<std::uint8_t> gone(points.mass.size(), 0);
@@ -33,15 +38,16 @@ void Removal<Dim>::take_due(double time, Body<Dim>& body, Ledger<Dim>& ledger) {
       const auto x = position_of(points, i);
       if (x[up] < bottom || !contains(input_.shape(), x)) continue;
       gone[i] = 1;
-      ++ledger.removed_points;
-      ledger.removed_mass += points.mass[i];
-      double v2 = 0;
-      for (int j = 0; j < Dim; ++j) v2 += points.v[j][i] * points.v[j][i];
-      ledger.removed_kinetic_energy += 0.5 * points.mass[i] * v2;
+      ++count;
+      mass.add(points.mass[i]);
+      kinetic_energy.add(kinetic_energy_of(points, i));
     }
     remove_points(block, gone);
   }
-  if (body.point_count() == 0) {
+  ledger.removed_points += comm::sum_of_all(count);
+  ledger.removed_mass += comm::sum_of_all(mass);
+  ledger.removed_kinetic_energy += comm::sum_of_all(kinetic_energy);
+  if (comm::sum_of_all(std::int64_t{body.point_count()}) == 0) {
     throw RunError("the removal of this stage leaves no soil", "", "make it smaller");
   }
   reorder(body);

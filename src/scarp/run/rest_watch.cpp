@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "scarp/base/exact_sum.hpp"
+#include "scarp/comm/alone.hpp"
+
 namespace scarp::run {
 namespace {
 
@@ -24,15 +27,16 @@ double height(const Body<Dim>& body) {
     low = std::min(low, points.x[Dim - 1][i]);
     high = std::max(high, points.x[Dim - 1][i]);
   });
-  return std::max(0.0, high - low);
+  return std::max(0.0, comm::most_of_all(high) - comm::least_of_all(low));
 }
 
 template <int Dim>
 double weight_energy(const Body<Dim>& body) {
-  double mass = 0, g2 = 0;
-  for_each_point(body, [&](const auto& points, int i) { mass += points.mass[i]; });
+  ExactSum mass;
+  double g2 = 0;
+  for_each_point(body, [&](const auto& points, int i) { mass.add(points.mass[i]); });
   for (const double g : body.gravity) g2 += g * g;
-  return mass * std::sqrt(g2) * height(body);
+  return comm::sum_of_all(mass) * std::sqrt(g2) * height(body);
 }
 
 template <int Dim>
@@ -85,7 +89,7 @@ double RestWatch<Dim>::largest_path(const Body<Dim>& body) const {
     for (int j = 0; j < Dim; ++j) path2 += (points.x[j][i] - before[j]) * (points.x[j][i] - before[j]);
     largest2 = std::max(largest2, path2);
   });
-  return std::sqrt(largest2);
+  return std::sqrt(comm::most_of_all(largest2));
 }
 
 template class RestWatch<2>;

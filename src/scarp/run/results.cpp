@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "scarp/base/error.hpp"
+#include "scarp/base/exact_sum.hpp"
 #include "scarp/base/log.hpp"
 #include "scarp/base/version.hpp"
+#include "scarp/comm/alone.hpp"
 #include "scarp/input/kept.hpp"
 #include "scarp/io/file.hpp"
 #include "scarp/io/history.hpp"
@@ -197,14 +199,16 @@ template <int Dim>
 double max_displacement(const Body<Dim>& body) {
   double largest = 0;
   for_each_displacement(body, [&](double u, double) { largest = std::max(largest, u); });
-  return largest;
+  return comm::most_of_all(largest);
 }
 
 template <int Dim>
 double mass_moved(const Body<Dim>& body, double length) {
-  double mass = 0;
-  for_each_displacement(body, [&](double u, double m) { mass += u > length ? m : 0; });
-  return mass;
+  ExactSum mass;
+  for_each_displacement(body, [&](double u, double m) {
+    if (u > length) mass.add(m);
+  });
+  return comm::sum_of_all(mass);
 }
 
 template class Results<2>;

@@ -73,8 +73,9 @@ void check_failures(const Context<Dim>& context) {
   const auto& ledger = context.ledger;
   if (ledger.failures <= context.input.method.largest_failures) return;
   throw RunError(
-      fmt::format("the stress update of point {} failed at t = {:.6g} s, step {}: {}", ledger.last.stress.failed_id,
-                  ledger.time, ledger.steps, end_text(ledger.last.stress.failed_end)),
+      fmt::format("the stress update of point {} failed at t = {:.6g} s, step {}: {}",
+                  ledger.last.stress.first_failed.id, ledger.time, ledger.steps,
+                  end_text(ledger.last.stress.first_failed.end)),
       fmt::format("{} failures in this run", ledger.failures),
       "look at the last frame; take a smaller safety, with the subloading model a larger p_c_floor, or allow some with "
       "largest_failures in [method]");

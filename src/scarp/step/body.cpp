@@ -7,8 +7,10 @@
 #include <numeric>
 
 #include "scarp/base/error.hpp"
+#include "scarp/comm/alone.hpp"
 #include "scarp/exec/arrange.hpp"
 #include "scarp/exec/parallel.hpp"
+#include "scarp/mesh/chunks.hpp"
 #include "scarp/mesh/with_basis.hpp"
 #include "scarp/transfer/quadrature.hpp"
 
@@ -87,8 +89,7 @@ void make_room(const Body<Dim>& body, VelocityField<Dim>& field) {
   const auto row = static_cast<std::size_t>(field.assembly.row()), places = elements * row;
   const auto padded = padded_row(field.assembly.row());
   for (auto& block : field.blocks) reserve_order(block, elements);
-  field.active.element.reserve(elements);
-  field.active.fresh.reserve(elements);
+  field.active.reserve(elements);
   field.assembly.reserve(elements, row);
   auto& buffers = field.buffers;
   buffers.inside.reserve(elements);
@@ -112,7 +113,6 @@ void make_room(const Body<Dim>& body, VelocityField<Dim>& field) {
   const auto nodes = std::min(places, static_cast<std::size_t>(body.mesh->node_count()));
   field.nodes.reserve(nodes);
   if (!body.patches.empty()) buffers.bounds.stiffness.reserve(nodes);
-  buffers.books.reserve(places / element_chunk + 1);
 }
 
 }  // namespace
@@ -183,7 +183,7 @@ void locate_points(const Body<Dim>& body, VelocityField<Dim>& field, bool prefer
     for (const double m : points.mass) lightest = std::min(lightest, m);
   }
   if (prefer_full) prefer_full_elements(body, field);
-  field.least_mass = 1e-12 * lightest;
+  field.least_mass = 1e-12 * comm::least_of_all(lightest);
   reorder(body, field);
   make_room(body, field);
   exec::arrange_in_new_memory(field.blocks);
@@ -241,20 +241,22 @@ template <int Dim>
 void prepare_threads(VelocityField<Dim>& field) {
   int most = 0;
   for (const auto& block : field.blocks) {
-    for (int first = 0; first < field.active.size(); first += element_chunk) {
-      const int last = std::min(field.active.size(), first + element_chunk);
-      most = std::max(most, block.begin[last] - block.begin[first]);
+    for (int c = 0; c < field.assembly.chunks(); ++c) {
+      const auto slots = field.assembly.chunk(c).slots;
+      most = std::max(most, block.begin[slots.last] - block.begin[slots.first]);
     }
   }
   auto& increments = field.buffers.increments;
   const auto threads = static_cast<std::size_t>(exec::thread_count());
   if (increments.size() < threads) increments.resize(threads);
   for (auto& of_thread : increments) of_thread.reserve(most);
+  if (field.buffers.books.size() < threads) field.buffers.books.resize(threads);
 }
 
 template <int Dim>
 void reorder(const Body<Dim>& body, VelocityField<Dim>& field) {
-  if (sort_by_element(field.blocks, body.mesh->element_count(), field.active)) rebuild(body, field);
+  const auto chunk = [&mesh = *body.mesh](int e) { return chunk_of(mesh, e); };
+  if (sort_by_element<Dim>(field.blocks, body.mesh->element_count(), chunk, field.active)) rebuild(body, field);
   prepare_threads(field);
 }
 

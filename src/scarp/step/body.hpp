@@ -118,7 +118,7 @@ void reorder(Body<Dim>& body);
 template <int Dim>
 void reorder(const Body<Dim>& body, VelocityField<Dim>& field);
 
-/// Room for the strain increments of a chunk, for each thread.
+/// Room for the strain increments of a chunk, for each thread, and its books.
 template <int Dim>
 void prepare_threads(VelocityField<Dim>& field);
 

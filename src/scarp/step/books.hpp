@@ -1,11 +1,13 @@
 // What a step did and where it leaves the body. Chunks of elements and nodes keep books of their own, which are added
-// up in a fixed order.
+// up exactly.
 #pragma once
 
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 
+#include "scarp/base/exact_sum.hpp"
 #include "scarp/base/vec.hpp"
 #include "scarp/exec/stress_update.hpp"
 #include "scarp/mesh/locate.hpp"
@@ -34,7 +36,49 @@ struct StepBooks : Energies {
   SearchCounts search;
   std::array<double, phases> seconds{};  ///< of each Phase, threads added up; only where asked for
 
-  StepBooks& operator+=(const StepBooks& other);
+  /// f(number) for each that is a sum over the body.
+  template <class Self, class F>
+  static void each_sum(Self& books, F&& f) {
+    for (const auto& term : energy_terms) f(books.*term.sum);
+    for (auto* sum :
+         {&books.unbalanced_force, &books.weight, &books.kinetic_energy_before, &books.kinetic_energy, &books.mass,
+          &books.removed_energy, &books.removed_mass, &books.stress.work, &books.stress.damping})
+      f(*sum);
+    for (auto& component : books.momentum) f(component);
+  }
+  static constexpr std::size_t sums = energy_terms.size() + 9 + Dim;
+
+  /// Adds counts, extremes and times, no sums.
+  void add_counts(const StepBooks& other);
+};
+
+/// Books of many chunks: a part at a time goes to the sums, which are exact, so that they do not depend on the order of
+/// the parts, nor on who kept the books of which. Counts, extremes and times gather in the part itself.
+template <int Dim>
+class alignas(64) BodyBooks {
+ public:
+  /// Where the next part is booked; its sums are zero.
+  StepBooks<Dim>& part() { return part_; }
+  const StepBooks<Dim>& part() const { return part_; }
+  /// Adds the sums of the part, and makes them zero.
+  void close_part() {
+    auto* exact = sums_.data();
+    StepBooks<Dim>::each_sum(part_, [&](double& sum) {
+      if (sum != 0) {
+        exact->add(sum);
+        sum = 0;
+      }
+      ++exact;
+    });
+  }
+
+  BodyBooks& operator+=(const BodyBooks& other);
+  /// Of all processes.
+  StepBooks<Dim> total() const;
+
+ private:
+  StepBooks<Dim> part_;
+  std::array<ExactSum, StepBooks<Dim>::sums> sums_;
 };
 
 /// Books the time that it lives to a phase, if `on`.

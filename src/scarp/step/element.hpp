@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "scarp/mesh/with_basis.hpp"
 #include "scarp/step/body.hpp"
 
 namespace scarp::step {
@@ -12,12 +13,24 @@ PointRange points_of(const Block<Dim>& block, int slot) {
   return {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]};
 }
 
-/// Zero in the places of the elements from slot `first` on, n numbers each.
+/// The points of a chunk.
 template <int Dim>
-void clear_places(const VelocityField<Dim>& field, int first, Column& numbers, int n) {
-  const int chunk = first / field.assembly.chunk();
-  std::fill(numbers.begin() + static_cast<std::ptrdiff_t>(field.assembly.first_place(chunk)) * n,
-            numbers.begin() + static_cast<std::ptrdiff_t>(field.assembly.last_place(chunk)) * n, 0.0);
+PointRange points_of(const Block<Dim>& block, const exec::Chunk& chunk) {
+  const int first = block.begin[chunk.slots.first];
+  return {block.order.data() + first, block.begin[chunk.slots.last] - first};
+}
+
+/// Zero in the places of a chunk, n numbers each.
+inline void clear_places(const exec::Chunk& chunk, Column& numbers, int n) {
+  std::fill(numbers.begin() + static_cast<std::ptrdiff_t>(chunk.places.first) * n,
+            numbers.begin() + static_cast<std::ptrdiff_t>(chunk.places.last) * n, 0.0);
+}
+
+/// f(basis, slot, element) for the active elements of a chunk.
+template <int Dim, class F>
+[[gnu::always_inline]] inline void for_each_element(const Body<Dim>& body, const VelocityField<Dim>& field,
+                                                    const exec::Chunk& chunk, F&& f) {
+  with_basis<Dim>(*body.mesh, field.active.element.data(), chunk.slots.first, chunk.slots.last, f);
 }
 
 /// The Motion of the local nodes of an element, from component `first` on.

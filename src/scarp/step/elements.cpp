@@ -4,9 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
-#include "scarp/exec/parallel.hpp"
 #include "scarp/mesh/with_basis.hpp"
+#include "scarp/step/chunks.hpp"
 #include "scarp/step/element_motion.hpp"
 #include "scarp/step/patches.hpp"
 #include "scarp/step/phases.hpp"
@@ -17,18 +18,6 @@
 
 namespace scarp::step {
 namespace {
-
-/// f(first, last, part) for chunks of the active elements.
-template <int Dim, class F>
-void for_each_chunk(VelocityField<Dim>& field, int chunk, StepBooks<Dim>& books, F&& f) {
-  exec::sum_over_chunks(field.active.size(), chunk, field.buffers.books, books, f);
-}
-
-/// f(basis, slot, element) for the active elements in some slots.
-template <int Dim, class F>
-void for_each_element(const Body<Dim>& body, const VelocityField<Dim>& field, int first, int last, F&& f) {
-  with_basis<Dim>(*body.mesh, field.active.element.data(), first, last, f);
-}
 
 /// What the mean stress of an element acts on: B̄_i of its own, or those of a patch, to which it then goes.
 template <class Basis>
@@ -243,12 +232,13 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, VelocityField<Basis::dim>
 
 /// Of a chunk of elements. Inlined it has not all registers.
 template <bool pic, int Dim>
-[[gnu::noinline]] void strain_and_move_points(Body<Dim>& body, VelocityField<Dim>& field, Block<Dim>& block, int first,
-                                              int last, const MoveRules& rules, PointIncrements<Dim>& increments,
-                                              exec::GapSharing<Dim>* sharing, StepBooks<Dim>& books) {
+[[gnu::noinline]] void strain_and_move_points(Body<Dim>& body, VelocityField<Dim>& field, Block<Dim>& block,
+                                              const exec::Chunk& chunk, const MoveRules& rules,
+                                              PointIncrements<Dim>& increments, exec::GapSharing<Dim>* sharing,
+                                              StepBooks<Dim>& books) {
   MotionBooks<Dim> motion;
-  for_each_element(body, field, first, last, [&]<class Basis>(Basis, int slot, int e) {
-    const int at = block.begin[slot] - block.begin[first];
+  for_each_element(body, field, chunk, [&]<class Basis>(Basis, int slot, int e) {
+    const int at = block.begin[slot] - block.begin[chunk.slots.first];
     transfer::with_means<Basis>(field.buffers.mean_dilatation[slot] != 0, [&](auto averaged) {
       move_points<pic, Basis>(body, field, block, slot, e, rules, increments, at, averaged, motion, books);
     });
@@ -282,13 +272,12 @@ void prepare_columns(Body<Dim>& body, VelocityField<Dim>& field, const Scheme& s
 }  // namespace
 
 template <int Dim>
-void map_points_to_elements(Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings,
-                            StepBooks<Dim>& books) {
+void map_points_to_elements(Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings) {
   prepare_columns(body, field, settings.scheme);
-  for_each_chunk(field, field.assembly.chunk(), books, [&](int first, int last, StepBooks<Dim>& part) {
+  for_each_chunk(field, field.buffers.books, [&](const exec::Chunk& chunk, StepBooks<Dim>& part) {
     PointBatch<Dim> m_v2(0.0);
-    clear_places(field, first, field.buffers.sums, transfer::node_sums<Dim>);
-    for_each_element(body, field, first, last, [&]<class Basis>(Basis, int slot, int e) {
+    clear_places(chunk, field.buffers.sums, transfer::node_sums<Dim>);
+    for_each_element(body, field, chunk, [&]<class Basis>(Basis, int slot, int e) {
       if constexpr (is_simplex<Basis>) field.buffers.patch_share[slot] = {};
       if (settings.scheme.affine) {
         sum_points<Basis>(body, field, transfer::NodePlaces<Basis>(*body.mesh, e), settings, slot, e, m_v2);
@@ -298,19 +287,21 @@ void map_points_to_elements(Body<Dim>& body, VelocityField<Dim>& field, const St
     });
     part.kinetic_energy_before = 0.5 * xsimd::hadd(m_v2);
   });
-  if (uses_patches(body, settings)) add_mean_stresses(body, field, books);
+  if (uses_patches(body, settings)) add_mean_stresses(body, field);
+  field.halo.start(field.buffers.sums, transfer::node_sums<Dim>);
+  field.halo.finish(field.buffers.sums);
 }
 
 template <int n, int Dim>
-void sum_with_mass_matrix(Body<Dim>& body, VelocityField<Dim>& field, int from, StepBooks<Dim>& books) {
-  for_each_chunk(field, field.assembly.chunk(), books, [&](int first, int last, StepBooks<Dim>&) {
-    clear_places(field, first, field.buffers.momentum, transfer::place_size<n>);
+void sum_with_mass_matrix(Body<Dim>& body, VelocityField<Dim>& field, int from) {
+  for_each_chunk(field, [&](const exec::Chunk& chunk) {
+    clear_places(chunk, field.buffers.momentum, transfer::place_size<n>);
     const transfer::Motion<Dim>* motion = field.nodes.motion.data();
     const double* matrices = field.buffers.mass_matrix.data();
     const int *places = field.assembly.places_of(0), *nodes = field.assembly.nodes_of(0), row = field.assembly.row();
     const std::size_t size = mass_matrix_row(row);
     double* momentum = field.buffers.momentum.data();
-    for_each_element(body, field, first, last, [&]<class Basis>(Basis, int slot, int e) {
+    for_each_element(body, field, chunk, [&]<class Basis>(Basis, int slot, int e) {
       if constexpr (transfer::keeps_mass_matrix<Basis>) {
         const double* M = matrices + slot * size;
         const int* k_i = nodes + slot * row;
@@ -325,66 +316,58 @@ void sum_with_mass_matrix(Body<Dim>& body, VelocityField<Dim>& field, int from, 
       }
     });
   });
+  field.halo.start(field.buffers.momentum, transfer::place_size<n>);
+  field.halo.finish(field.buffers.momentum);
 }
 
 template <int Dim>
-void strain_and_move(Body<Dim>& body, VelocityField<Dim>& field, Block<Dim>& block, int first, int last,
+void strain_and_move(Body<Dim>& body, VelocityField<Dim>& field, Block<Dim>& block, const exec::Chunk& chunk,
                      const MoveRules& rules, PointIncrements<Dim>& increments, exec::GapSharing<Dim>* sharing,
                      StepBooks<Dim>& books) {
   if (rules.books_pic) {
-    strain_and_move_points<true>(body, field, block, first, last, rules, increments, sharing, books);
+    strain_and_move_points<true>(body, field, block, chunk, rules, increments, sharing, books);
   } else {
-    strain_and_move_points<false>(body, field, block, first, last, rules, increments, sharing, books);
+    strain_and_move_points<false>(body, field, block, chunk, rules, increments, sharing, books);
   }
 }
 
 template <int Dim>
-void strain_stress_and_motion(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings,
-                              StepBooks<Dim>& books) {
-  const std::int64_t changed_before = books.changed_element;
+void strain_stress_and_motion(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings) {
   const auto& scheme = settings.scheme;
-  const MoveRules rules = move_rules(scheme, dt, books);
-  for_each_chunk(field, element_chunk, books, [&](int first, int last, StepBooks<Dim>& part) {
+  const MoveRules rules = move_rules(scheme, dt, counted(field, &StepBooks<Dim>::massless_nodes) > 0);
+  for_each_chunk(field, field.buffers.books, [&](const exec::Chunk& chunk, StepBooks<Dim>& part) {
     PointIncrements<Dim>& increments = field.buffers.increments[exec::thread_number()];
     for (auto& block : field.blocks) {
       exec::GapSharing<Dim> gaps(block, block.points.volume, increments, body.mesh->axisymmetric ? 3 : Dim, dt);
       auto* sharing = scheme.shares_gaps && gaps.active() ? &gaps : nullptr;
       {
         const Stopwatch<Dim> watch(settings.profile, part, Phase::strain_and_move);
-        strain_and_move(body, field, block, first, last, rules, increments, sharing, part);
+        strain_and_move(body, field, block, chunk, rules, increments, sharing, part);
       }
       const Stopwatch<Dim> watch(settings.profile, part, Phase::stress);
-      const PointRange range{block.order.data() + block.begin[first], block.begin[last] - block.begin[first]};
-      exec::update_stresses(block, range, increments, 0, dt, settings.integration, part.stress,
+      auto& failed = part.stress.first_failed;
+      const auto failed_before = std::exchange(failed, {});
+      exec::update_stresses(block, points_of(block, chunk), increments, 0, dt, settings.integration, part.stress,
                             scheme::waves(scheme, is_elastic(block.model), settings.damping));
+      failed.region = static_cast<int>(&block - field.blocks.data());
+      failed.keep_first(failed_before);
       if (sharing) part.stress.work -= sharing->work(exec::UpdatedColumns<Dim>(block));
     }
   });
-  field.changed_element = books.changed_element - changed_before;
+  field.changed_element = counted(field, &StepBooks<Dim>::changed_element);
 }
 
-template <int Dim>
-void close_books(double dt, const StepSettings& settings, StepBooks<Dim>& books) {
-  if (scheme::books_pic_at_nodes(settings.scheme, dt)) {
-    books.dissipation_pic += books.kinetic_energy_before - books.kinetic_energy;
-  }
-  books.work_stress = books.stress.work;
-  books.dissipation_waves = books.stress.damping;
-}
-
-template void map_points_to_elements<2>(Body<2>&, VelocityField<2>&, const StepSettings&, StepBooks<2>&);
-template void map_points_to_elements<3>(Body<3>&, VelocityField<3>&, const StepSettings&, StepBooks<3>&);
-template void sum_with_mass_matrix<2>(Body<2>&, VelocityField<2>&, int, StepBooks<2>&);
-template void sum_with_mass_matrix<4>(Body<2>&, VelocityField<2>&, int, StepBooks<2>&);
-template void sum_with_mass_matrix<3>(Body<3>&, VelocityField<3>&, int, StepBooks<3>&);
-template void sum_with_mass_matrix<6>(Body<3>&, VelocityField<3>&, int, StepBooks<3>&);
-template void close_books<2>(double, const StepSettings&, StepBooks<2>&);
-template void close_books<3>(double, const StepSettings&, StepBooks<3>&);
-template void strain_and_move<2>(Body<2>&, VelocityField<2>&, Block<2>&, int, int, const MoveRules&,
+template void map_points_to_elements<2>(Body<2>&, VelocityField<2>&, const StepSettings&);
+template void map_points_to_elements<3>(Body<3>&, VelocityField<3>&, const StepSettings&);
+template void sum_with_mass_matrix<2>(Body<2>&, VelocityField<2>&, int);
+template void sum_with_mass_matrix<4>(Body<2>&, VelocityField<2>&, int);
+template void sum_with_mass_matrix<3>(Body<3>&, VelocityField<3>&, int);
+template void sum_with_mass_matrix<6>(Body<3>&, VelocityField<3>&, int);
+template void strain_and_move<2>(Body<2>&, VelocityField<2>&, Block<2>&, const exec::Chunk&, const MoveRules&,
                                  PointIncrements<2>&, exec::GapSharing<2>*, StepBooks<2>&);
-template void strain_and_move<3>(Body<3>&, VelocityField<3>&, Block<3>&, int, int, const MoveRules&,
+template void strain_and_move<3>(Body<3>&, VelocityField<3>&, Block<3>&, const exec::Chunk&, const MoveRules&,
                                  PointIncrements<3>&, exec::GapSharing<3>*, StepBooks<3>&);
-template void strain_stress_and_motion<2>(Body<2>&, VelocityField<2>&, double, const StepSettings&, StepBooks<2>&);
-template void strain_stress_and_motion<3>(Body<3>&, VelocityField<3>&, double, const StepSettings&, StepBooks<3>&);
+template void strain_stress_and_motion<2>(Body<2>&, VelocityField<2>&, double, const StepSettings&);
+template void strain_stress_and_motion<3>(Body<3>&, VelocityField<3>&, double, const StepSettings&);
 
 }  // namespace scarp::step

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "scarp/exec/parallel.hpp"
-#include "scarp/mesh/with_basis.hpp"
+#include "scarp/step/chunks.hpp"
 #include "scarp/step/element.hpp"
 #include "scarp/step/phases.hpp"
 #include "scarp/transfer/means.hpp"
@@ -12,19 +11,6 @@
 
 namespace scarp::step {
 namespace {
-
-/// f(basis, slot, element, its cell) for all active elements, in the chunks of the assembly.
-template <int Dim, class F>
-void for_each_element(Body<Dim>& body, VelocityField<Dim>& field, StepBooks<Dim>& books, F&& f) {
-  exec::sum_over_chunks(field.active.size(), field.assembly.chunk(), field.buffers.books, books,
-                        [&](int first, int last, StepBooks<Dim>&) {
-                          clear_places(field, first, field.buffers.momentum, 1);
-                          with_basis<Dim>(*body.mesh, field.active.element.data(), first, last,
-                                          [&]<class Basis>(Basis basis, int slot, int e) {
-                                            f(basis, slot, typename Basis::Cell(*body.mesh, e));
-                                          });
-                        });
-}
 
 /// Ω̂ |B_i|² of an element, of its mean gradients.
 template <class Basis>
@@ -57,33 +43,37 @@ double largest_at_points(const VelocityField<Basis::dim>& field, const typename 
 }  // namespace
 
 template <int Dim>
-void bound_by_nodes(Body<Dim>& body, VelocityField<Dim>& field, StepBooks<Dim>& books) {
-  auto& buffers = field.buffers;
-  buffers.bounds.age = 0;
-  for_each_element(body, field, books, [&]<class Basis>(Basis, int slot, const typename Basis::Cell& cell) {
-    add_stiffness<Basis>(cell, buffers.bounds.filled[slot], field.assembly.places_of(slot), buffers.momentum.data());
+void bound_by_nodes(Body<Dim>& body, VelocityField<Dim>& field) {
+  auto& momentum = field.buffers.momentum;
+  auto& bounds = field.buffers.bounds;
+  bounds.age = 0;
+  for_each_chunk(field, [&](const exec::Chunk& chunk) {
+    clear_places(chunk, momentum, 1);
+    for_each_element(body, field, chunk, [&]<class Basis>(Basis, int slot, int e) {
+      const typename Basis::Cell cell(*body.mesh, e);
+      add_stiffness<Basis>(cell, bounds.filled[slot], field.assembly.places_of(slot), momentum.data());
+    });
   });
-  exec::sum_over_chunks(
-      field.assembly.size(), node_chunk, buffers.books, books, [&](int first, int last, StepBooks<Dim>&) {
-        for (int k = first; k < last; ++k) {
-          buffers.bounds.stiffness[k] = 0.5 * gathered<1>(field, k, buffers.momentum)[0] * field.nodes.node[k].per_mass;
-        }
-      });
-  exec::sum_over_chunks(
-      field.active.size(), element_chunk, buffers.books, books, [&](int first, int last, StepBooks<Dim>&) {
-        with_basis<Dim>(*body.mesh, field.active.element.data(), first, last, [&]<class Basis>(Basis, int slot, int e) {
-          if constexpr (is_simplex<Basis>) {
-            const int* k = field.assembly.nodes_of(slot);
-            transfer::NodeRows<Basis> rows;
-            for (int i = 0; i < Basis::nodes; ++i) rows[i] = &buffers.bounds.stiffness[k[i]];
-            const typename Basis::Cell cell(*body.mesh, e);
-            buffers.bounds.least_per_mass[slot] = largest_at_points<Basis>(field, cell, slot, rows);
-          }
-        });
-      });
+  field.halo.start(momentum, 1);
+  field.halo.finish(momentum);
+  for_each_chunk(field, [&](const exec::Chunk& chunk) {
+    for (int k = chunk.nodes.first; k < chunk.nodes.last; ++k)
+      bounds.stiffness[k] = 0.5 * gathered<1>(field, k, momentum)[0] * field.nodes.node[k].per_mass;
+  });
+  for_each_chunk(field, [&](const exec::Chunk& chunk) {
+    for_each_element(body, field, chunk, [&]<class Basis>(Basis, int slot, int e) {
+      if constexpr (is_simplex<Basis>) {
+        const int* k = field.assembly.nodes_of(slot);
+        transfer::NodeRows<Basis> rows;
+        for (int i = 0; i < Basis::nodes; ++i) rows[i] = &bounds.stiffness[k[i]];
+        const typename Basis::Cell cell(*body.mesh, e);
+        bounds.least_per_mass[slot] = largest_at_points<Basis>(field, cell, slot, rows);
+      }
+    });
+  });
 }
 
-template void bound_by_nodes<2>(Body<2>&, VelocityField<2>&, StepBooks<2>&);
-template void bound_by_nodes<3>(Body<3>&, VelocityField<3>&, StepBooks<3>&);
+template void bound_by_nodes<2>(Body<2>&, VelocityField<2>&);
+template void bound_by_nodes<3>(Body<3>&, VelocityField<3>&);
 
 }  // namespace scarp::step

@@ -30,6 +30,6 @@ inline bool is_due(NodeBounds& bounds) {
 /// Step 6, start: the largest ½ Σ N_n G_n / m_n [1/(Mg m²) times m³] over the points of each simplex, to
 /// NodeBounds::least_per_mass. Asks for what accelerate_nodes() leaves, and leaves no other sums of the nodes.
 template <int Dim>
-void bound_by_nodes(Body<Dim>& body, VelocityField<Dim>& field, StepBooks<Dim>& books);
+void bound_by_nodes(Body<Dim>& body, VelocityField<Dim>& field);
 
 }  // namespace scarp::step

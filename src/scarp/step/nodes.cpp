@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "scarp/exec/parallel.hpp"
+#include "scarp/step/chunks.hpp"
 #include "scarp/step/node_forces.hpp"
 #include "scarp/transfer/node_values.hpp"
 
@@ -19,12 +19,6 @@ inline double fused(double a, double b, double c) {
 #else
   return a * b + c;
 #endif
-}
-
-/// f(first, last, part) for chunks of the active nodes.
-template <int Dim, class F>
-void for_each_chunk(VelocityField<Dim>& field, StepBooks<Dim>& books, F&& f) {
-  exec::sum_over_chunks(field.assembly.size(), node_chunk, field.buffers.books, books, f);
 }
 
 /// Points that take the nodes' velocities, c = ṽ, keep of the kinetic energy what they can. The rest is booked as that
@@ -105,8 +99,8 @@ Vec<Dim> accelerate(Body<Dim>& body, VelocityField<Dim>& field, int k, const tra
 /// f(node, its number among the active ones, M w) of the active nodes with mass, where M w are the n numbers that were
 /// summed up for each.
 template <int n, int Dim, class F>
-void with_sums(const VelocityField<Dim>& field, int first, int last, F&& f) {
-  for (int k = first; k < last; ++k) {
+void with_sums(const VelocityField<Dim>& field, const exec::Chunk& chunk, F&& f) {
+  for (int k = chunk.nodes.first; k < chunk.nodes.last; ++k) {
     const Node<Dim>& node = field.nodes.node[k];
     if (node.m < field.least_mass) continue;
     f(node, k, gathered<transfer::place_size<n>>(field, k, field.buffers.momentum));
@@ -116,11 +110,10 @@ void with_sums(const VelocityField<Dim>& field, int first, int last, F&& f) {
 }  // namespace
 
 template <int Dim>
-void accelerate_nodes(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings,
-                      StepBooks<Dim>& books) {
-  for_each_chunk(field, books, [&](int first, int last, StepBooks<Dim>& part) {
+void accelerate_nodes(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings) {
+  for_each_chunk(field, field.buffers.books, [&](const exec::Chunk& chunk, StepBooks<Dim>& part) {
     double unbalanced = 0, mass = 0;
-    for (int k = first; k < last; ++k) {
+    for (int k = chunk.nodes.first; k < chunk.nodes.last; ++k) {
       const auto sums = gathered_sums(field, k);
       if (sums.mass() < field.least_mass) {
         field.nodes.node[k] = {};
@@ -139,10 +132,10 @@ void accelerate_nodes(Body<Dim>& body, VelocityField<Dim>& field, double dt, con
 
 /// What is held is no part of P: filter_changes and filter_displacements find it as it was.
 template <int Dim>
-void filter_changes(VelocityField<Dim>& field, double dt, const StepSettings& settings, StepBooks<Dim>& books) {
+void filter_changes(VelocityField<Dim>& field, double dt, const StepSettings& settings) {
   const double phi = settings.scheme.kept(dt);
-  for_each_chunk(field, books, [&](int first, int last, StepBooks<Dim>&) {
-    with_sums<2 * Dim>(field, first, last, [&](const Node<Dim>& node, int k, const auto& M_w) {
+  for_each_chunk(field, [&](const exec::Chunk& chunk) {
+    with_sums<2 * Dim>(field, chunk, [&](const Node<Dim>& node, int k, const auto& M_w) {
       auto& motion = field.nodes.motion[k];
       Vec<Dim> a_dt, v_next;
       for (int j = 0; j < Dim; ++j) {
@@ -201,12 +194,11 @@ void keep_aside(VelocityField<Dim>& field, int k) {
 /// points' kinetic energy is theirs to the last bit. Gravity works on the points' displacements:
 /// Σ m_p du_p = Σ m_n du_n.
 template <int Dim>
-void velocities_of_nodes(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings,
-                         StepBooks<Dim>& books) {
+void velocities_of_nodes(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings) {
   const Scheme& scheme = settings.scheme;
   const double phi = scheme.kept(dt);
   const bool filters = scheme.filters_motion(), books_pic = scheme::books_pic_at_nodes(scheme, dt);
-  for_each_chunk(field, books, [&](int first, int last, StepBooks<Dim>& part) {
+  for_each_chunk(field, field.buffers.books, [&](const exec::Chunk& chunk, StepBooks<Dim>& part) {
     Vec<Dim> m_du{};
     double taken = 0;
     const auto of_node = [&](const Node<Dim>& node, int k, const auto& M_w) {
@@ -235,9 +227,9 @@ void velocities_of_nodes(Body<Dim>& body, VelocityField<Dim>& field, double dt, 
       }
     };
     if (scheme.two_terms) {
-      with_sums<2 * Dim>(field, first, last, of_node);
+      with_sums<2 * Dim>(field, chunk, of_node);
     } else {
-      with_sums<Dim>(field, first, last, of_node);
+      with_sums<Dim>(field, chunk, of_node);
     }
     part.dissipation_pic += taken;
     for (int j = 0; j < Dim; ++j) part.work_gravity += m_du[j] * body.gravity[j];
@@ -269,11 +261,10 @@ template <int Dim, class Sums>
 }
 
 template <int Dim>
-void filter_displacements(Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings,
-                          StepBooks<Dim>& books) {
-  for_each_chunk(field, books, [&](int first, int last, StepBooks<Dim>& part) {
+void filter_displacements(Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings) {
+  for_each_chunk(field, field.buffers.books, [&](const exec::Chunk& chunk, StepBooks<Dim>& part) {
     Vec<Dim> m_du{};
-    with_sums<2 * Dim>(field, first, last, [&](const Node<Dim>& node, int k, const auto& M_w) {
+    with_sums<2 * Dim>(field, chunk, [&](const Node<Dim>& node, int k, const auto& M_w) {
       auto& motion = field.nodes.motion[k];
       Vec<Dim> du;
       for (int j = 0; j < Dim; ++j) du[j] = scheme::filtered(motion.du(j), M_w[Dim + j], node.per_mass);
@@ -288,13 +279,13 @@ void filter_displacements(Body<Dim>& body, VelocityField<Dim>& field, const Step
   });
 }
 
-template void accelerate_nodes<2>(Body<2>&, VelocityField<2>&, double, const StepSettings&, StepBooks<2>&);
-template void accelerate_nodes<3>(Body<3>&, VelocityField<3>&, double, const StepSettings&, StepBooks<3>&);
-template void filter_changes<2>(VelocityField<2>&, double, const StepSettings&, StepBooks<2>&);
-template void filter_changes<3>(VelocityField<3>&, double, const StepSettings&, StepBooks<3>&);
-template void filter_displacements<2>(Body<2>&, VelocityField<2>&, const StepSettings&, StepBooks<2>&);
-template void filter_displacements<3>(Body<3>&, VelocityField<3>&, const StepSettings&, StepBooks<3>&);
-template void velocities_of_nodes<2>(Body<2>&, VelocityField<2>&, double, const StepSettings&, StepBooks<2>&);
-template void velocities_of_nodes<3>(Body<3>&, VelocityField<3>&, double, const StepSettings&, StepBooks<3>&);
+template void accelerate_nodes<2>(Body<2>&, VelocityField<2>&, double, const StepSettings&);
+template void accelerate_nodes<3>(Body<3>&, VelocityField<3>&, double, const StepSettings&);
+template void filter_changes<2>(VelocityField<2>&, double, const StepSettings&);
+template void filter_changes<3>(VelocityField<3>&, double, const StepSettings&);
+template void filter_displacements<2>(Body<2>&, VelocityField<2>&, const StepSettings&);
+template void filter_displacements<3>(Body<3>&, VelocityField<3>&, const StepSettings&);
+template void velocities_of_nodes<2>(Body<2>&, VelocityField<2>&, double, const StepSettings&);
+template void velocities_of_nodes<3>(Body<3>&, VelocityField<3>&, double, const StepSettings&);
 
 }  // namespace scarp::step

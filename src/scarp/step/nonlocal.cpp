@@ -7,6 +7,7 @@
 #include "scarp/exec/parallel.hpp"
 #include "scarp/mesh/with_basis.hpp"
 #include "scarp/step/body.hpp"
+#include "scarp/step/chunks.hpp"
 
 namespace scarp::step {
 namespace {
@@ -110,14 +111,6 @@ void with_functions(const Mesh<Dim>& mesh, int e, F&& f) {
   });
 }
 
-/// f(first slot, last slot) for chunks of the active elements.
-template <int Dim, class F>
-void for_each_chunk(VelocityField<Dim>& field, F&& f) {
-  StepBooks<Dim> none;
-  exec::sum_over_chunks(field.active.size(), field.assembly.chunk(), field.buffers.books, none,
-                        [&](int first, int last, StepBooks<Dim>&) { f(first, last); });
-}
-
 /// κ of the points of a block.
 template <int Dim>
 const Column& kappa_of(const Block<Dim>& block) {
@@ -136,8 +129,8 @@ void sum_elements(const Body<Dim>& body, VelocityField<Dim>& field) {
   Column& sums = field.averages.of_elements;
   sums.assign(2 * (body.mesh->grid ? static_cast<std::size_t>(field.active.size()) << Dim : field.assembly.places()),
               0.0);
-  for_each_chunk(field, [&](int first, int last) {
-    for (int slot = first; slot < last; ++slot) {
+  for_each_chunk(field, [&](const exec::Chunk& chunk) {
+    for (int slot = chunk.slots.first; slot < chunk.slots.last; ++slot) {
       with_functions(*body.mesh, field.active.element[slot], [&](auto K, const auto& at) {
         for (const auto& block : field.blocks) {
           if (!(block.length > 0)) continue;
@@ -206,8 +199,8 @@ void set_rates(const Body<Dim>& body, VelocityField<Dim>& field, Block<Dim>& blo
   const std::size_t columns = block.state.size();
   const Column &kappa = kappa_of(block), &kappa_hat = block.state[columns - 2];
   Column& rate = block.state[columns - 1];
-  for_each_chunk(field, [&](int first, int last) {
-    for (int slot = first; slot < last; ++slot) {
+  for_each_chunk(field, [&](const exec::Chunk& chunk) {
+    for (int slot = chunk.slots.first; slot < chunk.slots.last; ++slot) {
       if (block.begin[slot] == block.begin[slot + 1]) continue;
       const int e = field.active.element[slot];
       with_functions(*body.mesh, e, [&](auto K, const auto& at) {

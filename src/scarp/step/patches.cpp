@@ -1,7 +1,6 @@
 #include "scarp/step/patches.hpp"
 
-#include "scarp/exec/parallel.hpp"
-#include "scarp/mesh/with_basis.hpp"
+#include "scarp/step/chunks.hpp"
 #include "scarp/step/element.hpp"
 #include "scarp/step/phases.hpp"
 #include "scarp/transfer/means.hpp"
@@ -9,20 +8,18 @@
 namespace scarp::step {
 namespace {
 
-/// f(basis, slot, element, its Means) for the elements of F, in the chunks of the assembly.
+/// f(basis, slot, element, its Means) for the elements of F.
 template <int Dim, class F>
-void for_each_simplex(Body<Dim>& body, VelocityField<Dim>& field, StepBooks<Dim>& books, F&& f) {
-  exec::sum_over_chunks(field.active.size(), field.assembly.chunk(), field.buffers.books, books,
-                        [&](int first, int last, StepBooks<Dim>&) {
-                          const auto of_element = [&]<class Basis>(Basis basis, int slot, int e) {
-                            if constexpr (is_simplex<Basis>) {
-                              if (!field.buffers.mean_dilatation[slot]) return;
-                              const typename Basis::Cell cell(*body.mesh, e);
-                              f(basis, slot, e, transfer::Means<Basis>(cell));
-                            }
-                          };
-                          with_basis<Dim>(*body.mesh, field.active.element.data(), first, last, of_element);
-                        });
+void for_each_simplex(Body<Dim>& body, VelocityField<Dim>& field, F&& f) {
+  for_each_chunk(field, [&](const exec::Chunk& chunk) {
+    for_each_element(body, field, chunk, [&]<class Basis>(Basis basis, int slot, int e) {
+      if constexpr (is_simplex<Basis>) {
+        if (!field.buffers.mean_dilatation[slot]) return;
+        const typename Basis::Cell cell(*body.mesh, e);
+        f(basis, slot, e, transfer::Means<Basis>(cell));
+      }
+    });
+  });
 }
 
 /// F_i += Vp B̄_i, in a body of revolution also of N_i / r.
@@ -43,18 +40,18 @@ void add_force(const transfer::Means<Basis>& means, double Vp, const int* place,
 }  // namespace
 
 template <int Dim>
-void add_mean_stresses(Body<Dim>& body, VelocityField<Dim>& field, StepBooks<Dim>& books) {
+void add_mean_stresses(Body<Dim>& body, VelocityField<Dim>& field) {
   auto& buffers = field.buffers;
-  for_each_simplex(body, field, books, [&]<class Basis>(Basis, int slot, int e, const transfer::Means<Basis>& means) {
+  for_each_simplex(body, field, [&]<class Basis>(Basis, int slot, int e, const transfer::Means<Basis>& means) {
     const double Vp = buffers.patch_share[slot].V * mean_over_patch(body, field, e, &PatchShare::p);
     add_force<Basis>(means, Vp, field.assembly.places_of(slot), buffers.sums.data());
   });
 }
 
 template <int Dim>
-void find_dilations(Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings, StepBooks<Dim>& books) {
-  const bool mends = settings.scheme.mends_massless && books.massless_nodes > 0;
-  for_each_simplex(body, field, books, [&]<class Basis>(Basis, int slot, int, const transfer::Means<Basis>& means) {
+void find_dilations(Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings) {
+  const bool mends = settings.scheme.mends_massless && counted(field, &StepBooks<Dim>::massless_nodes) > 0;
+  for_each_simplex(body, field, [&]<class Basis>(Basis, int slot, int, const transfer::Means<Basis>& means) {
     auto motion = motion_of_nodes<Basis>(field, slot);
     transfer::Motion<Dim> mean_motion;
     if (mends) mend_massless<Basis>(field, slot, motion, mean_motion);
@@ -62,9 +59,9 @@ void find_dilations(Body<Dim>& body, VelocityField<Dim>& field, const StepSettin
   });
 }
 
-template void add_mean_stresses<2>(Body<2>&, VelocityField<2>&, StepBooks<2>&);
-template void add_mean_stresses<3>(Body<3>&, VelocityField<3>&, StepBooks<3>&);
-template void find_dilations<2>(Body<2>&, VelocityField<2>&, const StepSettings&, StepBooks<2>&);
-template void find_dilations<3>(Body<3>&, VelocityField<3>&, const StepSettings&, StepBooks<3>&);
+template void add_mean_stresses<2>(Body<2>&, VelocityField<2>&);
+template void add_mean_stresses<3>(Body<3>&, VelocityField<3>&);
+template void find_dilations<2>(Body<2>&, VelocityField<2>&, const StepSettings&);
+template void find_dilations<3>(Body<3>&, VelocityField<3>&, const StepSettings&);
 
 }  // namespace scarp::step

@@ -35,10 +35,10 @@ double mean_over_patch(const Body<Dim>& body, const VelocityField<Dim>& field, i
 
 /// Step 1, end: V_e (S p)_e B̄_i to the sums of the nodes, when every element has its p_e.
 template <int Dim>
-void add_mean_stresses(Body<Dim>& body, VelocityField<Dim>& field, StepBooks<Dim>& books);
+void add_mean_stresses(Body<Dim>& body, VelocityField<Dim>& field);
 
 /// Step 6, start: θ_e, from the displacements of the nodes.
 template <int Dim>
-void find_dilations(Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings, StepBooks<Dim>& books);
+void find_dilations(Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings);
 
 }  // namespace scarp::step

@@ -8,9 +8,6 @@
 
 namespace scarp::step {
 
-/// Sweeps over the active nodes go in chunks of so many.
-inline constexpr int node_chunk = 256;
-
 /// Step 2: the sum over the places of active node k, n numbers each.
 template <int n, int Dim>
 std::array<double, n> gathered(const VelocityField<Dim>& field, int k, const Column& numbers) {
@@ -32,45 +29,40 @@ transfer::NodeSums<Dim> gathered_sums(const VelocityField<Dim>& field, int k) {
 /// first get the columns that the scheme needs; then simplices add the mean stress of their patches. All forces of the
 /// soil are there then, for whoever asks for them between steps, too.
 template <int Dim>
-void map_points_to_elements(Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings,
-                            StepBooks<Dim>& books);
+void map_points_to_elements(Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings);
 
 /// Steps 2 and 3 for all active nodes: their sums, acceleration and conditions.
 template <int Dim>
-void accelerate_nodes(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings,
-                      StepBooks<Dim>& books);
+void accelerate_nodes(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings);
 
 /// Σ_j M_ij w_j over the elements, for the first n components w of the nodes' Motion: those of c, or all. Of all only
 /// those from `from` on need be there.
 template <int n, int Dim>
-void sum_with_mass_matrix(Body<Dim>& body, VelocityField<Dim>& field, int from, StepBooks<Dim>& books);
+void sum_with_mass_matrix(Body<Dim>& body, VelocityField<Dim>& field, int from);
 
 /// Step 4 of a scheme of two terms, after the sums of a dt and ṽ: c = P [φ a dt + (1 − φ) ṽ].
 template <int Dim>
-void filter_changes(VelocityField<Dim>& field, double dt, const StepSettings& settings, StepBooks<Dim>& books);
+void filter_changes(VelocityField<Dim>& field, double dt, const StepSettings& settings);
 
 /// Step 5, end, after the sums of c: v_n^{t+dt} = p_n / m_n (eq. 8) with the conditions.
 template <int Dim>
-void velocities_of_nodes(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings,
-                         StepBooks<Dim>& books);
+void velocities_of_nodes(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings);
 
 /// The same of a scheme of two terms, after the sums of v dt: du = P v dt.
 template <int Dim>
-void filter_displacements(Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings,
-                          StepBooks<Dim>& books);
+void filter_displacements(Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings);
 
 /// Step 4 for the points themselves, and steps 6 to 11 for the points of one chunk of elements after the other, so that
 /// what one step hands to the next stays in the cache.
 template <int Dim>
-void strain_stress_and_motion(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings,
-                              StepBooks<Dim>& books);
+void strain_stress_and_motion(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings);
 
 /// Step 3, end: what the interactions of the body's fields do at their nodes.
 template <int Dim>
 void interact(Body<Dim>& body, double dt, const StepSettings& settings);
 
-/// What only the sums over all fields tell of the energies of a step of dt.
+/// The books of a step of dt, once all of it is in those of the fields and threads.
 template <int Dim>
-void close_books(double dt, const StepSettings& settings, StepBooks<Dim>& books);
+StepBooks<Dim> close_books(Body<Dim>& body, double dt, const StepSettings& settings);
 
 }  // namespace scarp::step

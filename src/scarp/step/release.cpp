@@ -34,10 +34,9 @@ void take_reaction(const Conditions<Dim>& conditions, int n, Vec<Dim>& F) {
 
 template <int Dim>
 void hold_imbalance(Body<Dim>& body, const StepSettings& settings) {
-  StepBooks<Dim> books;
   for (auto& field : body.fields) {
     prepare_threads(field);
-    step::map_points_to_elements(body, field, settings, books);
+    step::map_points_to_elements(body, field, settings);
     auto& release = field.outside.release;
     release.imbalance.assign(body.mesh->node_count(), {});
     release.mass.assign(body.mesh->node_count(), 0.0);

@@ -15,8 +15,10 @@ namespace scarp::step {
 template <int Dim>
 void find_changed_elements(Body<Dim>& body, VelocityField<Dim>& field);
 
-/// Energy stored in these elements [kJ], by the quadrature of the points that are in them by the present order.
+/// Books the energy stored in these elements, by the quadrature of the points that are in them by the present order:
+/// with the sign −1 before points are in their new order, and 1 after that.
 template <int Dim>
-double energy_of_changed_elements(const Body<Dim>& body, const VelocityField<Dim>& field, const StepSettings& settings);
+void book_energy_of_changed_elements(const Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings,
+                                     double sign);
 
 }  // namespace scarp::step

@@ -84,7 +84,7 @@ ZeroPages<Content> contents(const Body<Dim>& body, const VelocityField<Dim>& fie
   ZeroPages<Content> of_element(body.mesh->element_count());
   for (const auto& block : field.blocks) {
     const auto& points = block.points;
-    for (int i = 0; i < block.size(); ++i) {
+    for (const int i : block.order) {  // by id in each element
       auto& its = of_element[points.element[i]];
       its.Omega += points.volume[i];
       its.mass += points.mass[i];
@@ -279,7 +279,7 @@ void open_side(Body<Dim>& body, const StepSettings& settings, const AbsorbingSid
     const auto beyond = soil_beyond(body, field, side);
     StepBooks<Dim> books;
     prepare_threads(field);
-    step::map_points_to_elements(body, field, settings, books);
+    step::map_points_to_elements(body, field, settings);
     take_over(body, field, beyond, others, taken);
   }
   for (const int n : taken) body.conditions.fixed[n] &= others.fixed[n];

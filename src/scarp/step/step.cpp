@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "scarp/base/error.hpp"
+#include "scarp/comm/alone.hpp"
 #include "scarp/exec/arrange.hpp"
-#include "scarp/exec/parallel.hpp"
+#include "scarp/step/chunks.hpp"
 #include "scarp/step/node_rates.hpp"
 #include "scarp/step/patches.hpp"
 #include "scarp/step/phases.hpp"
@@ -17,49 +19,56 @@
 namespace scarp {
 namespace {
 
-/// Takes out the points of a block that have left the mesh.
+/// Of a point of a region, the field's block b, that is not in the mesh any more.
 template <int Dim>
-void remove_lost(Block<Dim>& block, StepBooks<Dim>& books) {
-  const auto& points = block.points;
-  std::vector<std::uint8_t> gone(points.element.size());
-  for (int i = 0; i < block.size(); ++i) {
-    gone[i] = points.element[i] < 0;
-    if (!gone[i]) continue;
-    double v2 = 0;
-    for (int j = 0; j < Dim; ++j) v2 += points.v[j][i] * points.v[j][i];
-    ++books.removed;
-    books.removed_mass += points.mass[i];
-    books.removed_energy += 0.5 * points.mass[i] * v2;
-  }
-  remove_points(block, gone);
-}
-
-template <int Dim>
-[[noreturn]] void refuse_to_lose(const VelocityField<Dim>& field, const Block<Dim>& block, int i) {
+comm::Failure failure_of_lost(const VelocityField<Dim>& field, int b, int i) {
+  const auto& block = field.blocks[b];
   const auto& points = block.points;
   Vec<Dim> x, v;
   for (int j = 0; j < Dim; ++j) {
     x[j] = points.x[j][i];
     v[j] = points.v[j][i];
   }
-  throw RunError(fmt::format("point {} of region \"{}\" has left the mesh", points.id[i], block.name),
-                 fmt::format("({:.6g}), with velocity ({:.4g})", fmt::join(x, ", "), fmt::join(v, ", ")),
-                 fmt::format("extend the mesh{}, or let such points be removed with leaving = \"remove\" in [method]",
-                             field.outside.sides.active()
-                                 ? ", or where an absorbing side gave way take a smaller thickness or a larger "
-                                   "impedance for it"
-                                 : ""));
+  return {b, points.id[i],
+          RunError(fmt::format("point {} of region \"{}\" has left the mesh", points.id[i], block.name),
+                   fmt::format("({:.6g}), with velocity ({:.4g})", fmt::join(x, ", "), fmt::join(v, ", ")),
+                   fmt::format("extend the mesh{}, or let such points be removed with leaving = \"remove\" in [method]",
+                               field.outside.sides.active() ? ", or where an absorbing side gave way take a smaller "
+                                                              "thickness or a larger impedance for it"
+                                                            : ""))};
 }
 
-/// The points of a field that have left the mesh.
+/// Throws where a point of a field has left the mesh: for the first by region and id.
 template <int Dim>
-void take_leave(VelocityField<Dim>& field, const StepSettings& settings, StepBooks<Dim>& books) {
+void refuse_to_lose(const VelocityField<Dim>& field) {
+  std::optional<comm::Failure> first;
+  for (int b = 0; b < static_cast<int>(field.blocks.size()) && !first; ++b) {
+    const auto& points = field.blocks[b].points;
+    int lost = -1;
+    for (int i = 0; i < points.size(); ++i) {
+      if (points.element[i] < 0 && (lost < 0 || points.id[i] < points.id[lost])) lost = i;
+    }
+    if (lost >= 0) first = failure_of_lost(field, b, lost);
+  }
+  comm::agree(first);
+}
+
+/// Takes out the points of a field that have left the mesh.
+template <int Dim>
+void remove_lost(VelocityField<Dim>& field) {
+  auto& books = field.buffers.books.front();
   for (auto& block : field.blocks) {
-    const auto& element = block.points.element;
-    const auto lost = std::find(element.begin(), element.end(), -1);
-    if (lost == element.end()) continue;
-    if (!settings.remove_leaving) refuse_to_lose(field, block, static_cast<int>(lost - element.begin()));
-    remove_lost(block, books);
+    const auto& points = block.points;
+    std::vector<std::uint8_t> gone(points.element.size());
+    for (int i = 0; i < block.size(); ++i) {
+      gone[i] = points.element[i] < 0;
+      if (!gone[i]) continue;
+      ++books.part().removed;
+      books.part().removed_mass = points.mass[i];
+      books.part().removed_energy = kinetic_energy_of(points, i);
+      books.close_part();
+    }
+    remove_points(block, gone);
   }
 }
 
@@ -77,53 +86,68 @@ void order_points(const Body<Dim>& body, VelocityField<Dim>& field) {
 
 /// Step 11, end: the points of all fields in their new elements.
 template <int Dim>
-void order_points(Body<Dim>& body, const StepSettings& settings, StepBooks<Dim>& books) {
-  if (books.changed_element == 0) return;
-  const auto stored = [&] {
-    double energy = 0;
-    for (const auto& field : body.fields) energy += step::energy_of_changed_elements(body, field, settings);
-    return energy;
-  };
-  for (auto& field : body.fields) step::find_changed_elements(body, field);
-  const double before = stored();
-  if (books.left_mesh > 0) {
-    for (auto& field : body.fields) take_leave(field, settings, books);
-    book_motion(body, books);
-  }
+void order_points(Body<Dim>& body, const StepSettings& settings) {
   for (auto& field : body.fields) {
-    if (field.changed_element > 0) order_points(body, field);
+    if (field.changed_element == 0) continue;
+    step::find_changed_elements(body, field);
+    step::book_energy_of_changed_elements(body, field, settings, -1);
+    if (step::counted(field, &StepBooks<Dim>::left_mesh) > 0) {
+      if (!settings.remove_leaving) refuse_to_lose(field);
+      remove_lost(field);
+    }
+    order_points(body, field);
+    step::book_energy_of_changed_elements(body, field, settings, 1);
   }
-  books.energy_reweighted = stored() - before;
 }
 
 }  // namespace
 
 template <int Dim>
 void book_motion(const Body<Dim>& body, StepBooks<Dim>& books) {
-  StepBooks<Dim> total;
-  std::vector<StepBooks<Dim>> partial;
-  for (const auto& block : body.blocks()) {
-    const auto& points = block.points;
-    exec::sum_over_chunks(points.size(), 1024, partial, total, [&](int first, int last, StepBooks<Dim>& part) {
-      double fastest2 = 0;
-      for (int i = first; i < last; ++i) {
-        double v2 = 0;
-        for (int j = 0; j < Dim; ++j) {
-          part.momentum[j] += points.mass[i] * points.v[j][i];
-          v2 += points.v[j][i] * points.v[j][i];
+  std::vector<BodyBooks<Dim>> of_threads(static_cast<std::size_t>(exec::thread_count()));
+  for (const auto& field : body.fields) {
+    step::for_each_chunk(field, of_threads, [&](const exec::Chunk& chunk, StepBooks<Dim>& part) {
+      for (const auto& block : field.blocks) {
+        const auto& points = block.points;
+        for (int k = block.begin[chunk.slots.first]; k < block.begin[chunk.slots.last]; ++k) {
+          const int i = block.order[k];
+          for (int j = 0; j < Dim; ++j) part.momentum[j] += points.mass[i] * points.v[j][i];
+          part.mass += points.mass[i];
+          part.kinetic_energy += kinetic_energy_of(points, i);
+          part.max_velocity = std::max(part.max_velocity, std::sqrt(speed2_of(points, i)));
         }
-        part.mass += points.mass[i];
-        part.kinetic_energy += 0.5 * points.mass[i] * v2;
-        fastest2 = std::max(fastest2, v2);
       }
-      part.max_velocity = std::sqrt(fastest2);
     });
   }
+  const auto total = step::total_of(of_threads);
   books.mass = total.mass;
   books.momentum = total.momentum;
   books.kinetic_energy = total.kinetic_energy;
   books.max_velocity = total.max_velocity;
 }
+
+namespace step {
+
+template <int Dim>
+StepBooks<Dim> close_books(Body<Dim>& body, double dt, const StepSettings& settings) {
+  BodyBooks<Dim> all;
+  for (const auto& field : body.fields) {
+    for (const auto& of_thread : field.buffers.books) all += of_thread;
+  }
+  auto books = all.total();
+  if (scheme::books_pic_at_nodes(settings.scheme, dt)) {
+    books.dissipation_pic += books.kinetic_energy_before - books.kinetic_energy;
+  }
+  books.work_stress = books.stress.work;
+  books.dissipation_waves = books.stress.damping;
+  if (books.left_mesh > 0) book_motion(body, books);
+  return books;
+}
+
+template StepBooks<2> close_books<2>(Body<2>&, double, const StepSettings&);
+template StepBooks<3> close_books<3>(Body<3>&, double, const StepSettings&);
+
+}  // namespace step
 
 /// Steps 4 and 5 ask for the points' velocities (eq. 6, with a PIC share 1 − φ) only to form momentum of them again
 /// (eq. 7). Both are linear: with c_j the change of velocity at the nodes (scheme.hpp)
@@ -133,9 +157,8 @@ void book_motion(const Body<Dim>& body, StepBooks<Dim>& books) {
 /// them.
 template <int Dim>
 StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings) {
-  StepBooks<Dim> books;
   const auto timed = [&](Phase phase, auto&& f) {
-    const Stopwatch<Dim> watch(settings.profile, books, phase);
+    const Stopwatch<Dim> watch(settings.profile, body.fields.front().buffers.books.front().part(), phase);
     f();
   };
   const auto each = [&](Phase phase, auto&& f) {
@@ -146,37 +169,39 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
   using Field = VelocityField<Dim>;
   using P = Phase;
   const Scheme& scheme = settings.scheme;
-  for (auto& field : body.fields) prepare_threads(field);
-  each(P::points_to_nodes, [&](Field& f) { step::map_points_to_elements(body, f, settings, books); });  // 1, eqs 1–4
-  each(P::nodes, [&](Field& f) { step::accelerate_nodes(body, f, dt, settings, books); });              // 2, 3, eq. 5
-  if (!body.interactions.empty()) timed(P::nodes, [&] { step::interact(body, dt, settings); });         // 3, end
-  if (scheme.two_terms) {
-    each(P::velocities, [&](Field& f) { step::sum_with_mass_matrix<2 * Dim>(body, f, 0, books); });
-    each(P::nodes, [&](Field& f) { step::filter_changes(f, dt, settings, books); });                 // 4: c = P c
-    each(P::velocities, [&](Field& f) { step::sum_with_mass_matrix<2 * Dim>(body, f, 0, books); });  // 4, 5, eqs 6, 7
-  } else {
-    each(P::velocities, [&](Field& f) { step::sum_with_mass_matrix<Dim>(body, f, 0, books); });  // 4, 5, eqs 6, 7
+  for (auto& field : body.fields) {
+    prepare_threads(field);
+    std::fill(field.buffers.books.begin(), field.buffers.books.end(), BodyBooks<Dim>());
   }
-  each(P::nodes, [&](Field& f) { step::velocities_of_nodes(body, f, dt, settings, books); });  // 5, eq. 8
+  each(P::points_to_nodes, [&](Field& f) { step::map_points_to_elements(body, f, settings); });  // 1, eqs 1–4
+  each(P::nodes, [&](Field& f) { step::accelerate_nodes(body, f, dt, settings); });              // 2, 3, eq. 5
+  if (!body.interactions.empty()) timed(P::nodes, [&] { step::interact(body, dt, settings); });  // 3, end
+  if (scheme.two_terms) {
+    each(P::velocities, [&](Field& f) { step::sum_with_mass_matrix<2 * Dim>(body, f, 0); });
+    each(P::nodes, [&](Field& f) { step::filter_changes(f, dt, settings); });                 // 4: c = P c
+    each(P::velocities, [&](Field& f) { step::sum_with_mass_matrix<2 * Dim>(body, f, 0); });  // 4, 5, eqs 6, 7
+  } else {
+    each(P::velocities, [&](Field& f) { step::sum_with_mass_matrix<Dim>(body, f, 0); });  // 4, 5, eqs 6, 7
+  }
+  each(P::nodes, [&](Field& f) { step::velocities_of_nodes(body, f, dt, settings); });  // 5, eq. 8
   if (scheme.filters_motion()) {
-    each(P::velocities, [&](Field& f) { step::sum_with_mass_matrix<2 * Dim>(body, f, Dim, books); });
-    each(P::nodes, [&](Field& f) { step::filter_displacements(body, f, settings, books); });  // 5: du = P v dt
+    each(P::velocities, [&](Field& f) { step::sum_with_mass_matrix<2 * Dim>(body, f, Dim); });
+    each(P::nodes, [&](Field& f) { step::filter_displacements(body, f, settings); });  // 5: du = P v dt
   }
   if (step::uses_patches(body, settings)) {
-    each(P::velocities, [&](Field& f) { step::find_dilations(body, f, settings, books); });
+    each(P::velocities, [&](Field& f) { step::find_dilations(body, f, settings); });
   }
   if (step::bounds_by_nodes(body, scheme)) {
     each(P::velocities, [&](Field& f) {
-      if (step::is_due(f.buffers.bounds)) step::bound_by_nodes(body, f, books);
+      if (step::is_due(f.buffers.bounds)) step::bound_by_nodes(body, f);
     });
   }
   for (auto& f : body.fields) {
-    step::strain_stress_and_motion(body, f, dt, settings, books);  // 4, 6 to 11, eqs 6, 9–19 and section 3
+    step::strain_stress_and_motion(body, f, dt, settings);  // 4, 6 to 11, eqs 6, 9–19 and section 3
   }
-  step::close_books(dt, settings, books);
-  timed(P::order, [&] { order_points(body, settings, books); });  // 11
+  timed(P::order, [&] { order_points(body, settings); });  // 11
   if (step::softens_over_length(body)) timed(P::averages, [&] { step::average_softening(body, dt); });
-  return books;
+  return step::close_books(body, dt, settings);
 }
 
 namespace {
@@ -184,15 +209,15 @@ namespace {
 /// What bounds the time step by nodes, of points as they are.
 template <int Dim>
 void find_bound_by_nodes(Body<Dim>& body, VelocityField<Dim>& field, const Scheme& scheme) {
-  StepBooks<Dim> unused;
   StepSettings settings;
   settings.scheme = scheme;
-  step::map_points_to_elements(body, field, settings, unused);
+  prepare_threads(field);
+  step::map_points_to_elements(body, field, settings);
   for (int k = 0; k < field.assembly.size(); ++k) {
     const double m = step::gathered_sums(field, k).mass();
     field.nodes.node[k].per_mass = m < field.least_mass ? 0 : 1 / m;
   }
-  step::bound_by_nodes(body, field, unused);
+  step::bound_by_nodes(body, field);
 }
 
 }  // namespace
@@ -208,7 +233,7 @@ double critical_time_step(Body<Dim>& body, const Scheme& scheme, double local_da
                                                  scheme::waves(scheme, is_elastic(block.model), local_damping)));
     }
   }
-  return dt;
+  return comm::least_of_all(dt);
 }
 
 template StepBooks<2> advance<2>(Body<2>&, double, const StepSettings&);

@@ -17,20 +17,19 @@ struct MoveRules {
   bool stay_there = false;  ///< points keep their element, wherever they go: of a trial
 };
 
-template <int Dim>
-MoveRules move_rules(const Scheme& scheme, double dt, const StepBooks<Dim>& books) {
+inline MoveRules move_rules(const Scheme& scheme, double dt, bool massless_nodes) {
   const double phi = scheme.kept(dt);
   return {{phi, scheme.middle, scheme.affine, dt},
           scheme.lateness,
-          scheme.mends_massless && books.massless_nodes > 0,
+          scheme.mends_massless && massless_nodes,
           phi != 1 && !scheme.two_terms};
 }
 
-/// Steps 4, 6, 8, 9, 10 and 11 for the points of a block in the elements of some slots, and the sharing of gaps where
+/// Steps 4, 6, 8, 9, 10 and 11 for the points of a block in the elements of a chunk, and the sharing of gaps where
 /// that is asked for: their increments, from the place of the first on, for the stress update that is to follow.
 /// `block` may be another than the body's, with its points in the same order.
 template <int Dim>
-void strain_and_move(Body<Dim>& body, VelocityField<Dim>& field, Block<Dim>& block, int first, int last,
+void strain_and_move(Body<Dim>& body, VelocityField<Dim>& field, Block<Dim>& block, const exec::Chunk& chunk,
                      const MoveRules& rules, PointIncrements<Dim>& increments, exec::GapSharing<Dim>* sharing,
                      StepBooks<Dim>& books);
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "scarp/exec/parallel.hpp"
+#include "scarp/step/chunks.hpp"
+#include "scarp/step/element.hpp"
 #include "scarp/step/patches.hpp"
 #include "scarp/step/sweep.hpp"
 
@@ -41,35 +42,31 @@ void prepare(FieldTrial<Dim>& trial, const VelocityField<Dim>& field) {
   }
 }
 
+/// Its stress updates go to the books of the threads.
 template <int Dim>
-exec::StressBooks form_trial(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings,
-                             FieldTrial<Dim>& trial) {
+void form_trial(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings,
+                FieldTrial<Dim>& trial, std::vector<BodyBooks<Dim>>& of_threads) {
   const Scheme& scheme = settings.scheme;
   prepare_threads(field);
   prepare(trial, field);
-  StepBooks<Dim> books;
-  books.massless_nodes = count_massless(field);
-  step::MoveRules rules = step::move_rules(scheme, dt, books);
+  step::MoveRules rules = step::move_rules(scheme, dt, count_massless(field) > 0);
   rules.stay_there = true;
-  if (step::uses_patches(body, settings)) step::find_dilations(body, field, settings, books);
-  const auto trial_of_block = [&](std::size_t b, int first, int last, StepBooks<Dim>& part) {
+  if (step::uses_patches(body, settings)) step::find_dilations(body, field, settings);
+  const auto trial_of_block = [&](std::size_t b, const exec::Chunk& chunk, StepBooks<Dim>& part) {
     const Block<Dim>& block = field.blocks[b];
     Block<Dim>& moved = trial.moved[b];
     auto& increments = field.buffers.increments[exec::thread_number()];
     exec::GapSharing<Dim> gaps(block, moved.points.volume, increments, body.mesh->axisymmetric ? 3 : Dim, dt);
     auto* sharing = scheme.shares_gaps && gaps.active() ? &gaps : nullptr;
-    step::strain_and_move(body, field, moved, first, last, rules, increments, sharing, part);
-    const PointRange range{block.order.data() + block.begin[first], block.begin[last] - block.begin[first]};
-    exec::trial_stresses(block, trial.blocks[b], range, increments, 0, dt, settings.integration, part.stress,
-                         scheme::waves(scheme, is_elastic(block.model), settings.damping));
+    step::strain_and_move(body, field, moved, chunk, rules, increments, sharing, part);
+    exec::trial_stresses(block, trial.blocks[b], step::points_of(block, chunk), increments, 0, dt, settings.integration,
+                         part.stress, scheme::waves(scheme, is_elastic(block.model), settings.damping));
     if (sharing) part.stress.work -= sharing->work(exec::UpdatedColumns<Dim>(trial.blocks[b]));
   };
-  exec::sum_over_chunks(field.active.size(), element_chunk, field.buffers.books, books,
-                        [&](int first, int last, StepBooks<Dim>& part) {
-                          for (std::size_t b = 0; b < field.blocks.size(); ++b) trial_of_block(b, first, last, part);
-                        });
+  step::for_each_chunk(field, of_threads, [&](const exec::Chunk& chunk, StepBooks<Dim>& part) {
+    for (std::size_t b = 0; b < field.blocks.size(); ++b) trial_of_block(b, chunk, part);
+  });
   for (std::size_t b = 0; b < field.blocks.size(); ++b) std::swap(trial.moved[b].points.volume, trial.blocks[b].volume);
-  return books.stress;
 }
 
 }  // namespace
@@ -77,9 +74,10 @@ exec::StressBooks form_trial(Body<Dim>& body, VelocityField<Dim>& field, double 
 template <int Dim>
 void form_trial(Body<Dim>& body, double dt, const StepSettings& settings, BodyTrial<Dim>& trial) {
   trial.fields.resize(body.fields.size());
-  trial.stress = {};
+  trial.books.assign(static_cast<std::size_t>(exec::thread_count()), {});
   for (std::size_t f = 0; f < body.fields.size(); ++f)
-    trial.stress += form_trial(body, body.fields[f], dt, settings, trial.fields[f]);
+    form_trial(body, body.fields[f], dt, settings, trial.fields[f], trial.books);
+  trial.stress = step::total_of(trial.books).stress;
 }
 
 template <int Dim>

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scarp/base/zero_pages.hpp"
+#include "scarp/comm/alone.hpp"
 #include "scarp/exec/assembly.hpp"
 #include "scarp/points/points.hpp"
 #include "scarp/step/books.hpp"
@@ -103,7 +104,7 @@ struct Buffers {
   Column sums;                                   ///< transfer::node_sums numbers
   Column momentum;                               ///< up to transfer::momentum_size numbers
   std::vector<PointIncrements<Dim>> increments;  ///< of each thread
-  std::vector<StepBooks<Dim>> books;             ///< of each chunk
+  std::vector<BodyBooks<Dim>> books;             ///< of each thread
   // Elements whose quadrature changes with the points that do (reweighted.hpp), and which of all these are.
   std::vector<int> changed;
   ZeroPages<std::uint8_t> is_changed;
@@ -116,6 +117,7 @@ struct VelocityField {
 
   ActiveElements active;
   exec::Assembly assembly;
+  comm::Halo halo;
   NodalState<Dim> nodes;
   Buffers<Dim> buffers;
   OutsideForces<Dim> outside;
@@ -130,10 +132,6 @@ struct VelocityField {
     return count;
   }
 };
-
-/// The sweep that hands strain increments to the law goes in chunks of so many elements, whose increments stay in the
-/// innermost cache. Those that add to places of nodes go in the chunks of the assembly.
-inline constexpr int element_chunk = 64;
 
 /// Numbers that an element of up to `row` nodes keeps for a component of its nodes, and for its mass matrix.
 inline std::size_t padded_row(int row) {

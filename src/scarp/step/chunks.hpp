@@ -1,0 +1,43 @@
+// Sweeps over the chunks of a field. Not for use outside step/.
+#pragma once
+
+#include <vector>
+
+#include "scarp/exec/parallel.hpp"
+#include "scarp/step/velocity_field.hpp"
+
+namespace scarp::step {
+
+/// f(chunk) for each that has active elements, on all threads.
+template <int Dim, class F>
+void for_each_chunk(const VelocityField<Dim>& field, F&& f) {
+  exec::for_each_piece(field.assembly.chunks(), [&](int c) { f(field.assembly.chunk(c)); });
+}
+
+/// f(chunk, part), with a part of the thread's books for each chunk.
+template <int Dim, class F>
+void for_each_chunk(const VelocityField<Dim>& field, std::vector<BodyBooks<Dim>>& of_threads, F&& f) {
+  for_each_chunk(field, [&](const exec::Chunk& chunk) {
+    auto& books = of_threads[exec::thread_number()];
+    f(chunk, books.part());
+    books.close_part();
+  });
+}
+
+/// A count of the step so far, of a field in this process.
+template <int Dim>
+std::int64_t counted(const VelocityField<Dim>& field, std::int64_t StepBooks<Dim>::*count) {
+  std::int64_t sum = 0;
+  for (const auto& books : field.buffers.books) sum += books.part().*count;
+  return sum;
+}
+
+/// What all threads have booked.
+template <int Dim>
+StepBooks<Dim> total_of(const std::vector<BodyBooks<Dim>>& of_threads) {
+  BodyBooks<Dim> all;
+  for (const auto& books : of_threads) all += books;
+  return all.total();
+}
+
+}  // namespace scarp::step
