@@ -141,6 +141,11 @@ constexpr int side_of(const std::array<int, n>& local) {
 template <class Shape>
 NodePositions<Shape> node_positions(const Mesh<Shape::dim>& mesh, int e) {
   NodePositions<Shape> x;
+  if (!mesh.grid) {  // in sweeps: of a number that is known, so that they stay in registers
+    const int* n = mesh.lists.connectivity.data() + mesh.lists.offsets[e];
+    for (int i = 0; i < Shape::nodes; ++i) x[i] = mesh.lists.nodes[n[i]];
+    return x;
+  }
   mesh.for_local_positions(e, [&, i = 0](const Vec<Shape::dim>& x_i) mutable { x[i++] = x_i; });
   return x;
 }
