@@ -179,10 +179,10 @@ void sweep(benchmark::State& loop) {
     block.points.sigma = start.points.sigma;
     block.state = start.state;
     loop.ResumeTiming();
-    exec::StressBooks books;
-    exec::update_stresses(block, {block.order.data(), points}, increments, 0, 1e-3, {tolerance, 1e-4}, books);
-    if (books.failures > 0) loop.SkipWithError("an update failed");
-    substeps = static_cast<double>(books.substeps);
+    exec::StressTotals totals;
+    exec::update_stresses(block, {block.order.data(), points}, increments, 0, 1e-3, {tolerance, 1e-4}, totals);
+    if (totals.failures > 0) loop.SkipWithError("an update failed");
+    substeps = static_cast<double>(totals.substeps);
   }
   loop.counters["substeps"] = substeps / points;
   loop.counters["ns_per_point"] =

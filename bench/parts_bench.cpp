@@ -50,8 +50,8 @@ void phases_of_step(benchmark::State& loop) {
   settings.profile = true;
   std::array<double, phases> seconds{};
   for (auto _ : loop) {
-    const auto books = advance(body, 1e-5, settings);
-    for (int i = 0; i < phases; ++i) seconds[i] += books.seconds[i];
+    const auto totals = advance(body, 1e-5, settings);
+    for (int i = 0; i < phases; ++i) seconds[i] += totals.seconds[i];
   }
   const double point_steps = static_cast<double>(loop.iterations()) * body.point_count();
   for (int i = 0; i < phases; ++i) loop.counters[phase_names[i]] = 1e9 * seconds[i] / point_steps;

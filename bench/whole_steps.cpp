@@ -55,10 +55,10 @@ Prepared steps_of(const Scheme& scheme, Make&& make) {
     Repetition result;
     const Timer timer;
     for (int k = 0; k < steps; ++k) {
-      const auto books = advance(*body, time_step, settings);
-      result.substeps += books.stress.substeps;
-      result.changed_element += books.changed_element;
-      for (int i = 0; i < phases; ++i) result.phase_seconds[i] += books.seconds[i];
+      const auto totals = advance(*body, time_step, settings);
+      result.substeps += totals.stress.substeps;
+      result.changed_element += totals.changed_element;
+      for (int i = 0; i < phases; ++i) result.phase_seconds[i] += totals.seconds[i];
     }
     timer.read(result);
     result.steps = steps;
@@ -93,7 +93,7 @@ class SlopeCut {
         body_(run::build_body(input_)),
         results_(input_, folder_.path(), body_),
         progress_(true) {
-    book_motion(body_, ledger_.last);
+    record_motion(body_, ledger_.last);
     ledger_.initial_mass = ledger_.last.mass;
     run::StageRecord record;
     run_stage(0, false, record);

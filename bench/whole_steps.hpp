@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-#include "scarp/step/books.hpp"
+#include "scarp/step/totals.hpp"
 
 namespace scarp::bench {
 

@@ -61,8 +61,8 @@ TEST_P(Held, SidesThatAreLetGoKeepTheirForce) {
     for (const int n : body.mesh->node_sets.at(side)) others.fixed[n] = 0;
   for (const char* side : {"left", "right", "bottom"})
     open_side(body, settings, {body.mesh->node_sets.at(side), 0.0, std::nullopt}, others);
-  const auto books = advance(body, 1e-4, settings);
-  EXPECT_LT(books.unbalanced_force, 1e-11 * books.weight);
+  const auto totals = advance(body, 1e-4, settings);
+  EXPECT_LT(totals.unbalanced_force, 1e-11 * totals.weight);
 }
 
 const auto backgrounds = testing::Values(Background::grid, Background::gimp, Background::b_spline, Background::quads,

@@ -84,12 +84,12 @@ TEST(Fields, KnowNothingOfEachOtherWithoutInteractions) {
   EXPECT_EQ(critical_time_step(both, settings.scheme),
             std::min(critical_time_step(first, settings.scheme), critical_time_step(second, settings.scheme)));
   for (int s = 0; s < 100; ++s) {
-    const auto books = advance(both, dt, settings);
+    const auto totals = advance(both, dt, settings);
     const auto of_first = advance(first, dt, settings), of_second = advance(second, dt, settings);
-    EXPECT_DOUBLE_EQ(books.work_gravity, of_first.work_gravity + of_second.work_gravity);
-    EXPECT_NEAR(books.dissipation_pic, of_first.dissipation_pic + of_second.dissipation_pic,
-                1e-12 * books.kinetic_energy);
-    EXPECT_EQ(books.changed_element, of_first.changed_element + of_second.changed_element);
+    EXPECT_DOUBLE_EQ(totals.work_gravity, of_first.work_gravity + of_second.work_gravity);
+    EXPECT_NEAR(totals.dissipation_pic, of_first.dissipation_pic + of_second.dissipation_pic,
+                1e-12 * totals.kinetic_energy);
+    EXPECT_EQ(totals.changed_element, of_first.changed_element + of_second.changed_element);
   }
   for (int j = 0; j < 2; ++j) {
     EXPECT_EQ(both.blocks()[0].points.x[j], first.blocks()[0].points.x[j]);
@@ -139,15 +139,15 @@ TEST_P(Collision, ConservesMomentumAndItsWorkIsInTheBooks) {
   body.interactions.push_back(std::make_unique<Adhesion>());
   for (auto& block : body.blocks()) block.model = linear_elastic(1e-9, 0.2);  // stress is to do no work
   const auto& settings = GetParam().settings;
-  StepBooks<2> start;
-  book_motion(body, start);
+  StepTotals<2> start;
+  record_motion(body, start);
   double kinetic = 0, balanced = start.kinetic_energy, work = 0;
   for (int s = 0; s < 200; ++s) {
-    const auto books = advance(body, 0.005, settings);
-    for (const auto& term : energy_terms) balanced += term.sign * books.*term.sum;
-    work += books.work_interaction;
-    kinetic = books.kinetic_energy;
-    EXPECT_NEAR(books.momentum[0], start.momentum[0], 1e-12 * start.momentum[0]);
+    const auto totals = advance(body, 0.005, settings);
+    for (const auto& term : energy_terms) balanced += term.sign * totals.*term.sum;
+    work += totals.work_interaction;
+    kinetic = totals.kinetic_energy;
+    EXPECT_NEAR(totals.momentum[0], start.momentum[0], 1e-12 * start.momentum[0]);
     EXPECT_NEAR(kinetic, balanced, GetParam().error * start.kinetic_energy);
   }
   EXPECT_LT(work, -0.02 * start.kinetic_energy);  // they meet at one metre per second

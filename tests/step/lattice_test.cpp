@@ -74,12 +74,12 @@ TEST(Lattice, GroundWithPointsOnFacesComesToRest) {
   double kinetic = 0, gravity = 0, balanced = 0, largest = 0;
   std::int64_t changed = 0;
   for (int s = 0; s < 400; ++s) {
-    const auto books = advance(body, dt, settings);
-    for (const auto& term : energy_terms) balanced += term.sign * books.*term.sum;
-    kinetic = books.kinetic_energy;
-    gravity += books.work_gravity;
+    const auto totals = advance(body, dt, settings);
+    for (const auto& term : energy_terms) balanced += term.sign * totals.*term.sum;
+    kinetic = totals.kinetic_energy;
+    gravity += totals.work_gravity;
     largest = std::max({largest, kinetic, std::abs(gravity)});
-    changed += books.changed_element;
+    changed += totals.changed_element;
   }
   std::printf("kinetic %.3g, error %.3g of %.3g, %lld changes\n", kinetic, kinetic - balanced, largest,
               static_cast<long long>(changed));

@@ -40,8 +40,8 @@ double growth(bool bounds) {
   settings.scheme = two_term_scheme();
   settings.scheme.bounds_by_nodes = bounds;
   const double dt = 0.8 * critical_time_step(body, settings.scheme);
-  StepBooks<3> start;
-  book_motion(body, start);
+  StepTotals<3> start;
+  record_motion(body, start);
   double largest = 0;
   for (int s = 0; s < 300 && largest < 1e6 * start.kinetic_energy; ++s) {
     largest = std::max(largest, advance(body, dt, settings).kinetic_energy);

@@ -39,19 +39,19 @@ std::map<int, Bits> bits_of(Block<Dim>& block) {
 
 /// Every book of a step that depends on all points.
 template <int Dim>
-Bits bits_of(StepBooks<Dim> books) {
+Bits bits_of(StepTotals<Dim> totals) {
   Bits all;
-  StepBooks<Dim>::each_sum(books, [&](double sum) { all.push_back(std::bit_cast<std::uint64_t>(sum)); });
-  for (const double extreme : {books.max_velocity, books.stress.critical_dt})
+  StepTotals<Dim>::each_sum(totals, [&](double sum) { all.push_back(std::bit_cast<std::uint64_t>(sum)); });
+  for (const double extreme : {totals.max_velocity, totals.stress.critical_dt})
     all.push_back(std::bit_cast<std::uint64_t>(extreme));
   return all;
 }
 
 struct Outcome {
   std::map<int, Bits> points;
-  std::vector<Bits> books;  ///< of each step
+  std::vector<Bits> totals;  ///< of each step
   std::int64_t changed = 0;
-  bool operator==(const Outcome& other) const { return points == other.points && books == other.books; }
+  bool operator==(const Outcome& other) const { return points == other.points && totals == other.totals; }
 };
 
 /// What is done to a body before each step.
@@ -67,10 +67,10 @@ Outcome thrown(Body<Dim> body, const Scheme& scheme, int steps, const Disturb<Di
   double critical = critical_time_step(body, scheme, settings.damping);
   for (int s = 0; s < steps; ++s) {
     disturb(body, s);
-    const auto books = advance(body, 0.3 * critical, settings);
-    critical = books.stress.critical_dt;
-    outcome.books.push_back(bits_of(books));
-    outcome.changed += books.changed_element;
+    const auto totals = advance(body, 0.3 * critical, settings);
+    critical = totals.stress.critical_dt;
+    outcome.totals.push_back(bits_of(totals));
+    outcome.changed += totals.changed_element;
     if (s != steps / 2) continue;
     std::vector<std::uint8_t> gone;
     const auto& points = body.fields[0].blocks[0].points;
@@ -209,11 +209,11 @@ int same_critical_steps(Body<2> body, const Scheme& scheme, std::int64_t& separa
   const double dt = 0.1 * critical_time_step(body, scheme, settings.damping);
   int compared = 0;
   for (int s = 0; s < 40; ++s) {
-    const auto books = advance(body, dt, settings);
-    if (books.changed_element > 0) continue;
+    const auto totals = advance(body, dt, settings);
+    if (totals.changed_element > 0) continue;
     ++compared;
-    separated += books.stress.separated;
-    EXPECT_EQ(books.stress.critical_dt, critical_time_step(body, scheme, settings.damping)) << "step " << s;
+    separated += totals.stress.separated;
+    EXPECT_EQ(totals.stress.critical_dt, critical_time_step(body, scheme, settings.damping)) << "step " << s;
   }
   return compared;
 }

@@ -17,16 +17,16 @@ StepSettings with(double pic_time, double damping = 0) {
 /// Takes a step with PIC and, from the same state, one without in `other`: what is booked of PIC is their difference to
 /// round-off, and there is something to book.
 template <int Dim>
-StepBooks<Dim> step_both(Body<Dim>& body, Body<Dim>& other, double dt, double damping) {
+StepTotals<Dim> step_both(Body<Dim>& body, Body<Dim>& other, double dt, double damping) {
   other.fields[0].blocks = body.fields[0].blocks;
   reorder(other);
   const auto kept = advance(other, dt, with(std::numeric_limits<double>::infinity(), damping));
-  const auto books = advance(body, dt, with(0.03, damping));
-  const double taken = kept.kinetic_energy - books.kinetic_energy;
+  const auto totals = advance(body, dt, with(0.03, damping));
+  const double taken = kept.kinetic_energy - totals.kinetic_energy;
   EXPECT_EQ(kept.dissipation_pic, 0);
   EXPECT_GT(std::abs(taken), 1e-6 * kept.kinetic_energy);
-  EXPECT_NEAR(books.dissipation_pic, taken, 1e-13 * kept.kinetic_energy);
-  return books;
+  EXPECT_NEAR(totals.dissipation_pic, taken, 1e-13 * kept.kinetic_energy);
+  return totals;
 }
 
 template <int Dim>

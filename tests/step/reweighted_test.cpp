@@ -136,10 +136,10 @@ Energies follow(double velocity, double dt, int steps) {
     its.largest = std::max(its.largest, stored);
 
     const double Q = power_of_nodes(body) * dt;
-    const auto books = advance(body, dt, {});
-    its.crossings += books.changed_element;
-    gravity += books.work_gravity;
-    its.reweighted += books.energy_reweighted;
+    const auto totals = advance(body, dt, {});
+    its.crossings += totals.changed_element;
+    gravity += totals.work_gravity;
+    its.reweighted += totals.energy_reweighted;
     const auto w_stay = weights(body, old_elements);  // as if all had stayed, with the volumes that they have now
     const auto w_new = weights(body, elements(body));
     double S = 0;
@@ -198,7 +198,7 @@ TEST(Reweighted, CountsTheElementsAroundThoseThatFillOrEmpty) {
   double largest = 0;
   for (int s = 0; s < 200; ++s) {
     const auto old_elements = elements(body);
-    const auto books = advance(body, dt, {});
+    const auto totals = advance(body, dt, {});
     const auto stay = weights(body, old_elements), now = weights(body, elements(body));
     double by_hand = 0, stored = 0;
     for (int i = 0; i < points.size(); ++i) {
@@ -207,7 +207,7 @@ TEST(Reweighted, CountsTheElementsAroundThoseThatFillOrEmpty) {
       stored += energy;
     }
     largest = std::max(largest, std::abs(by_hand) / stored);
-    ASSERT_NEAR(books.energy_reweighted, by_hand, 1e-12 * stored) << "step " << s;
+    ASSERT_NEAR(totals.energy_reweighted, by_hand, 1e-12 * stored) << "step " << s;
   }
   EXPECT_GT(largest, 1e-3);
 }
@@ -218,9 +218,9 @@ TEST(Reweighted, NoneOfTheSumOverPointsAsPrinted) {
   settings.quadrature = QuadratureRule::points;
   std::int64_t changed = 0;
   for (int s = 0; s < 200; ++s) {
-    const auto books = advance(body, 2e-3, settings);
-    changed += books.changed_element;
-    EXPECT_LT(std::abs(books.energy_reweighted), 1e-15);  // w = 1 before and after; round-off of other sums
+    const auto totals = advance(body, 2e-3, settings);
+    changed += totals.changed_element;
+    EXPECT_LT(std::abs(totals.energy_reweighted), 1e-15);  // w = 1 before and after; round-off of other sums
   }
   EXPECT_GT(changed, 40);
 }

@@ -12,7 +12,7 @@ namespace {
 
 /// All numbers of the points, in their order, as bits.
 template <int Dim>
-std::vector<std::uint64_t> bits(Body<Dim>& body, const StepBooks<Dim>& books) {
+std::vector<std::uint64_t> bits(Body<Dim>& body, const StepTotals<Dim>& totals) {
   std::vector<std::uint64_t> all;
   for_each_column(body.blocks()[0], [&](const auto& column) {
     for (const auto value : column) {
@@ -23,8 +23,8 @@ std::vector<std::uint64_t> bits(Body<Dim>& body, const StepBooks<Dim>& books) {
       }
     }
   });
-  for (const double value : {books.kinetic_energy, books.work_stress, books.work_gravity, books.dissipation_damping,
-                             books.dissipation_friction, books.stress.critical_dt}) {
+  for (const double value : {totals.kinetic_energy, totals.work_stress, totals.work_gravity, totals.dissipation_damping,
+                             totals.dissipation_friction, totals.stress.critical_dt}) {
     all.push_back(std::bit_cast<std::uint64_t>(value));
   }
   return all;
@@ -38,11 +38,11 @@ std::vector<std::uint64_t> run(int threads, Mesh<Dim> mesh, const AnyModel& mode
   const double dt = 0.3 * critical_time_step(body);
   const StepSettings settings{
       .scheme = scheme, .damping = 0.05, .quadrature = QuadratureRule::corrected, .integration = {1e-4, 1e-5}};
-  StepBooks<Dim> books;
+  StepTotals<Dim> totals;
   std::int64_t changed = 0;
   for (int s = 0; s < steps; ++s) {
-    books = advance(body, dt, settings);
-    changed += books.changed_element;
+    totals = advance(body, dt, settings);
+    changed += totals.changed_element;
     if (s != steps / 2) continue;
     // A cut: what stands to the right above.
     std::vector<std::uint8_t> gone;
@@ -57,7 +57,7 @@ std::vector<std::uint64_t> run(int threads, Mesh<Dim> mesh, const AnyModel& mode
     EXPECT_GT(*std::max_element(kappa_hat.begin(), kappa_hat.end()), 0) << "nothing has softened";
   }
   exec::set_threads(1);
-  return bits(body, books);
+  return bits(body, totals);
 }
 
 template <class Make>

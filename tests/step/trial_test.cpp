@@ -91,7 +91,7 @@ void displace_nodes(Body<Dim>& body, double dt, const StepSettings& settings) {
   const Scheme& scheme = settings.scheme;
   for (auto& field : body.fields) {
     prepare_threads(field);
-    std::fill(field.buffers.books.begin(), field.buffers.books.end(), BodyBooks<Dim>());
+    std::fill(field.buffers.totals.begin(), field.buffers.totals.end(), BodyTotals<Dim>());
     step::map_points_to_elements(body, field, settings);
     step::accelerate_nodes(body, field, dt, settings);
     if (scheme.two_terms) {
@@ -158,19 +158,19 @@ Met expect_same_bits(Body<Dim> body, int steps, const StepSettings& settings, do
     if (step::uses_patches(body, settings)) step::find_dilations(body, field, settings);
     step::strain_stress_and_motion(body, field, dt, settings);
   }
-  const auto books = step::close_books(body, dt, settings);
+  const auto totals = step::close_totals(body, dt, settings);
   EXPECT_TRUE(first == updated_bits_of(body)) << "the fused step has other bits";
-  EXPECT_EQ(trial.stress.work, books.stress.work);
-  EXPECT_EQ(trial.stress.damping, books.stress.damping);
-  EXPECT_EQ(trial.stress.substeps, books.stress.substeps);
-  EXPECT_EQ(trial.stress.failures, books.stress.failures);
-  EXPECT_EQ(trial.stress.critical_dt, books.stress.critical_dt);
+  EXPECT_EQ(trial.stress.work, totals.stress.work);
+  EXPECT_EQ(trial.stress.damping, totals.stress.damping);
+  EXPECT_EQ(trial.stress.substeps, totals.stress.substeps);
+  EXPECT_EQ(trial.stress.failures, totals.stress.failures);
+  EXPECT_EQ(trial.stress.critical_dt, totals.stress.critical_dt);
   for (int j = 0; j < Dim; ++j) {
     EXPECT_TRUE(trial.fields[0].moved[0].points.x[j] == body.blocks()[0].points.x[j]);
     EXPECT_TRUE(trial.fields[0].moved[0].points.v[j] == body.blocks()[0].points.v[j]);
   }
   const auto& means = body.fields[0].buffers.mean_dilatation;
-  return {trial.stress.most_substeps, trial.stress.separated, books.massless_nodes,
+  return {trial.stress.most_substeps, trial.stress.separated, totals.massless_nodes,
           std::count(means.begin(), means.end(), 1) > 0};
 }
 

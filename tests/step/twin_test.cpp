@@ -64,11 +64,11 @@ void run_both(Mesh<Dim> mesh, const AnyModel& model, int along, int steps, const
   double worst = 0;
   std::int64_t changed = 0;
   for (int s = 1; s <= steps; ++s) {
-    const auto books = advance(body, dt, settings);
+    const auto totals = advance(body, dt, settings);
     twin.advance(dt, settings);
-    changed += books.changed_element;
-    ASSERT_NEAR(books.kinetic_energy, twin.kinetic_energy, 1e-10 * twin.kinetic_energy);
-    ASSERT_NEAR(books.work_gravity, twin.work_gravity, 1e-10 * books.weight * dt);
+    changed += totals.changed_element;
+    ASSERT_NEAR(totals.kinetic_energy, twin.kinetic_energy, 1e-10 * twin.kinetic_energy);
+    ASSERT_NEAR(totals.work_gravity, twin.work_gravity, 1e-10 * totals.weight * dt);
     worst = std::max(worst, difference(body, twin));
     ASSERT_LT(worst, 1e-10) << "step " << s;
   }

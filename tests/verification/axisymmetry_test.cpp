@@ -83,7 +83,7 @@ double stress_noise(QuadratureRule quadrature) {
   }
   locate_points(body);
   const double end = 4 / v;
-  run_until(body, end, 0.3, {.quadrature = quadrature, .integration = {}}, [](double, const StepBooks<2>&) {});
+  run_until(body, end, 0.3, {.quadrature = quadrature, .integration = {}}, [](double, const StepTotals<2>&) {});
   const double reached = 10 * end + 12;
   double worst = 0;
   for (int p = 0; p < points.size(); ++p) {
@@ -120,7 +120,7 @@ double vibration_error(int elements) {
     points.v[0][p] = mode(p);
     start += points.mass[p] * mode(p) * mode(p);
   }
-  run_until(body, 2 * pi / omega, 0.2, {}, [&](double t, const StepBooks<2>&) {
+  run_until(body, 2 * pi / omega, 0.2, {}, [&](double t, const StepTotals<2>&) {
     const double middle = 0.5 * (last + t);  // the step leaves the velocities of the middle of its time
     last = t;
     double error2 = 0;
@@ -148,7 +148,7 @@ TEST(BodyOfRevolution, SoilInARigidCylinderRestsUnderGeostaticStress) {
   // over an element's points is compared at its middle.
   constexpr double R = 4, H = 10, nu = 0.3, rho = 2, g = 10, h = 0.5;
   auto body = cylinder(R, H, {R, H + 1}, {8, 22}, {18, 44}, LinearElastic({1e6, nu}), rho, g);
-  run_until(body, 0.6, 0.5, {.damping = 0.7, .integration = {}}, [](double, const StepBooks<2>&) {});
+  run_until(body, 0.6, 0.5, {.damping = 0.7, .integration = {}}, [](double, const StepTotals<2>&) {});
   const auto& block = body.blocks()[0];
   double worst = 0;
   for (int slot = 0; slot < body.fields[0].active.size(); ++slot) {

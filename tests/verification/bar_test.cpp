@@ -12,8 +12,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double centre_of_mass_velocity(const StepBooks<2>& books, int axis) {
-  return books.momentum[axis] / books.mass;
+double centre_of_mass_velocity(const StepTotals<2>& totals, int axis) {
+  return totals.momentum[axis] / totals.mass;
 }
 
 struct BarResult {
@@ -37,15 +37,15 @@ BarResult vibrate(double v0, int elements, QuadratureRule quadrature, GridFuncti
   for (const char* side : {"bottom", "top"}) fix(body.conditions, body.mesh->node_sets.at(side), 1);
 
   BarResult result;
-  StepBooks<2> start;
-  book_motion(body, start);
+  StepTotals<2> start;
+  record_motion(body, start);
   result.start_energy_error = std::abs(start.kinetic_energy / (h * v0 * v0 * L / 4) - 1);
   double stored = 0;
-  run_until(body, end, 0.2, {.quadrature = quadrature, .integration = {}}, [&](double t, const StepBooks<2>& books) {
-    const double error = centre_of_mass_velocity(books, 0) - 2 * v0 / pi * std::cos(omega * t);
+  run_until(body, end, 0.2, {.quadrature = quadrature, .integration = {}}, [&](double t, const StepTotals<2>& totals) {
+    const double error = centre_of_mass_velocity(totals, 0) - 2 * v0 / pi * std::cos(omega * t);
     result.velocity_error = std::max(result.velocity_error, std::abs(error) / (2 * v0 / pi));
-    stored += books.work_stress;
-    const double total = (books.kinetic_energy + stored) / start.kinetic_energy;
+    stored += totals.work_stress;
+    const double total = (totals.kinetic_energy + stored) / start.kinetic_energy;
     result.energy_low = std::min(result.energy_low, total);
     result.energy_high = std::max(result.energy_high, total);
   });
@@ -157,7 +157,7 @@ TEST(SuddenlyLoadedColumn, DisplacementOfTheTopFollowsTheSeries) {
   const double half = 2 * Column::H / std::sqrt(Column::M / Column::rho);  // t = 2H/c
   const int top = column.body.blocks()[0].size() - 1;
   double worst = 0, twice = 0;
-  run_until(column.body, half, 0.2, {}, [&](double t, const StepBooks<2>&) {
+  run_until(column.body, half, 0.2, {}, [&](double t, const StepTotals<2>&) {
     const auto& points = column.body.blocks()[0].points;
     // The arrays are sorted by element: find the point by its number.
     for (int p = 0; p < points.size(); ++p) {
@@ -181,7 +181,7 @@ TEST(SuddenlyLoadedColumn, WithDampingRestsUnderGeostaticStress) {
   settings.damping = 0.7;
   double unbalanced = 1;
   run_until(column.body, 20, 0.4, settings,
-            [&](double, const StepBooks<2>& books) { unbalanced = books.unbalanced_force / books.weight; });
+            [&](double, const StepTotals<2>& totals) { unbalanced = totals.unbalanced_force / totals.weight; });
   EXPECT_LT(unbalanced, 1e-3);
   // Oracle: σ_yy = −ρg(H − y) at cell centres; the settlement of 2 % of H moves the cells' soil by as much.
   EXPECT_LT(column.worst_stress_error(), 0.02);

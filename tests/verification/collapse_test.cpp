@@ -26,7 +26,7 @@ Body<2> collapsed(const AnyModel& sand) {
   for (int j = 0; j < 2; ++j) fix(body.conditions, body.mesh->node_sets.at("bottom"), j);
   StepSettings settings;
   settings.scheme = two_term_scheme();
-  run_until(body, 2, 0.5, settings, [](double, const StepBooks<2>&) {});
+  run_until(body, 2, 0.5, settings, [](double, const StepTotals<2>&) {});
   return body;
 }
 

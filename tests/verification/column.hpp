@@ -51,8 +51,8 @@ class WeightColumn {
     const int most = static_cast<int>(200 * n_ / safety);
     unbalanced_ = 1;
     for (int s = 0; s < most && unbalanced_ > 1e-8; ++s) {
-      const auto books = advance(body_, dt, settings_);
-      unbalanced_ = books.unbalanced_force / books.weight;
+      const auto totals = advance(body_, dt, settings_);
+      unbalanced_ = totals.unbalanced_force / totals.weight;
     }
     return compare(1);
   }

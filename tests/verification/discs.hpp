@@ -74,7 +74,7 @@ inline DiscRun run_discs(Body<2>& body, const Solid& solid, double end, const Me
   }
   run.history.push_back({0, start.kinetic, start.stored, start.angular_momentum});
   Motions before = start;
-  run_until(body, end, safety, method.settings(), [&](double t, const StepBooks<2>&) {
+  run_until(body, end, safety, method.settings(), [&](double t, const StepTotals<2>&) {
     const Motions now = motions_of(body, solid, centre);
     run.momentum = std::max(
         run.momentum, std::hypot(now.momentum[0] - start.momentum[0], now.momentum[1] - start.momentum[1]) / size);

@@ -171,7 +171,7 @@ Swelling swelling(const Method& method, double safety) {
   const auto start = motions_of(body, disc_solid, {0.5, 0.5});
   Swelling result;
   double before = 0;
-  run_until(body, 2 * pi / disc_spin, safety, method.settings(), [&](double t, const StepBooks<2>&) {
+  run_until(body, 2 * pi / disc_spin, safety, method.settings(), [&](double t, const StepTotals<2>&) {
     const auto now = motions_of(body, disc_solid, {0.5, 0.5});
     const auto& points = body.blocks()[0].points;
     double inertia = 0;

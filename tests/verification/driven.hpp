@@ -25,7 +25,7 @@ struct DrivenErrors {
 };
 
 /// Places of the points in order of their number.
-inline std::vector<Vec<2>> places_of(const Body<2>& body) {
+inline std::vector<Vec<2>> accumulators_of(const Body<2>& body) {
   std::vector<Vec<2>> X(body.point_count());
   for (const auto& block : body.blocks()) {
     for (int p = 0; p < block.size(); ++p) X[block.points.id[p]] = position_of(block.points, p);
@@ -58,7 +58,7 @@ void compare(Body<2>& body, const std::vector<Vec<2>>& X, const Motion& motion, 
 /// Follows a motion that starts from X, and that the body's points stand at.
 template <class Motion>
 DrivenErrors follow(Body<2>& body, const Motion& motion, double end, int steps, const StepSettings& settings) {
-  const auto X = places_of(body);
+  const auto X = accumulators_of(body);
   const double dt = end / steps;
   for_each_point(body, X, [&](Points<2>& points, int p, const Vec<2>& at) {
     const Vec<2> v = motion.velocity(at, -dt / 2);

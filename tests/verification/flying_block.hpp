@@ -44,7 +44,7 @@ inline Flight fly(const Scheme& scheme) {
   StepSettings settings;
   settings.scheme = scheme;
   Flight its{1, 0};
-  run_until(body, 1, 0.5, settings, [&](double t, const StepBooks<2>&) {
+  run_until(body, 1, 0.5, settings, [&](double t, const StepTotals<2>&) {
     its.fall = std::max(its.fall, std::abs(spin_and_fall(body).second / (-g * t) - 1));
   });
   its.spin = spin_and_fall(body).first / start;

@@ -107,10 +107,10 @@ Rest keep_at_rest(Body<Dim>& body, const Scheme& scheme, int steps, double safet
   const double dt = safety * critical_time_step(body, scheme);
   Rest rest;
   for (int s = 0; s < steps; ++s) {
-    const auto books = advance(body, dt, settings);
-    rest.crossings += books.changed_element;
-    if (s < steps / 10) rest.first += books.kinetic_energy / (steps / 10);
-    if (s >= steps - steps / 10) rest.last += books.kinetic_energy / (steps / 10);
+    const auto totals = advance(body, dt, settings);
+    rest.crossings += totals.changed_element;
+    if (s < steps / 10) rest.first += totals.kinetic_energy / (steps / 10);
+    if (s >= steps - steps / 10) rest.last += totals.kinetic_energy / (steps / 10);
   }
   return rest;
 }

@@ -36,7 +36,7 @@ double stress_noise(double cells, double points_per_cell, QuadratureRule quadrat
   locate_points(body);
   for (const char* side : {"bottom", "top"}) fix(body.conditions, body.mesh->node_sets.at(side), 1);
   const double end = cells / v;
-  run_until(body, end, 0.3, {.quadrature = quadrature, .integration = {}}, [](double, const StepBooks<2>&) {});
+  run_until(body, end, 0.3, {.quadrature = quadrature, .integration = {}}, [](double, const StepTotals<2>&) {});
   const double reached = 10 * end + its.ahead;  // elements that the waves may have come to
   double worst = 0;
   const auto& points = body.blocks()[0].points;
@@ -158,8 +158,8 @@ TEST(RigidRotation, TurnsStressBetaAndCentreWithTheBody) {
           {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, increments,
           block.begin[slot], std::false_type{}, sums, [](const auto&...) {});
     }
-    exec::StressBooks books;
-    exec::update_stresses(block, {block.order.data(), block.size()}, increments, 0, 1.0, {}, books);
+    exec::StressTotals totals;
+    exec::update_stresses(block, {block.order.data(), block.size()}, increments, 0, 1.0, {}, totals);
   }
   const auto sigma_exact = turned(sigma, angle), beta_exact = turned(beta, angle), a_exact = turned(a, angle);
   for (int p = 0; p < block.size(); ++p) {

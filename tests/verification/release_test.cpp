@@ -35,10 +35,10 @@ Settled let_go(double time) {
   double balanced = 0, gravity = 0, kinetic = 0;
   for (double t = 0; t < time + 2 * period; t += dt) {
     body.fields[0].outside.release.share = time > 0 ? std::max(0.0, 1 - t / time) : 0;
-    const auto books = advance(body, dt, {});
-    balanced += books.work_gravity + books.work_release - books.work_stress;
-    gravity += books.work_gravity;
-    kinetic = books.kinetic_energy;
+    const auto totals = advance(body, dt, {});
+    balanced += totals.work_gravity + totals.work_release - totals.work_stress;
+    gravity += totals.work_gravity;
+    kinetic = totals.kinetic_energy;
     if (t < time) continue;
     its.lowest = std::min(its.lowest, -points.u(1, top) / weight);
     its.highest = std::max(its.highest, -points.u(1, top) / weight);
@@ -79,8 +79,8 @@ TEST(Release, HoldsSoilThatIsNotInBalanceWhereItIs) {
   StepSettings settings;
   settings.scheme.wall = WallRule::by_motion;
   for (int n = 0; n < 10; ++n) {
-    const auto books = advance(body, 1e-3, settings);
-    EXPECT_LT(books.unbalanced_force, 1e-13 * books.weight);
+    const auto totals = advance(body, 1e-3, settings);
+    EXPECT_LT(totals.unbalanced_force, 1e-13 * totals.weight);
   }
   for (const auto& v : body.blocks()[0].points.v) {
     for (const double component : v) EXPECT_LT(std::abs(component), 1e-14);

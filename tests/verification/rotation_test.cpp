@@ -129,8 +129,8 @@ void move_with_nodes(Body<Dim>& body, const Matrix& m) {
                    {block.order.data() + block.begin[slot], block.begin[slot + 1] - block.begin[slot]}, increments,
                    block.begin[slot], std::false_type{}, sums, [](const auto&...) {});
              });
-  exec::StressBooks books;
-  exec::update_stresses(block, {block.order.data(), block.size()}, increments, 0, 1.0, {}, books);
+  exec::StressTotals totals;
+  exec::update_stresses(block, {block.order.data(), block.size()}, increments, 0, 1.0, {}, totals);
   locate_points(body);
 }
 

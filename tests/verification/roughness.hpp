@@ -107,7 +107,7 @@ inline double roughness_at_rest(const Scheme& scheme, Cells cells, double h, dou
   settings.damping = 0.7;
   double unbalanced = 0;
   run_until(body, 2, 0.5, settings,
-            [&](double, const StepBooks<2>& books) { unbalanced = books.unbalanced_force / books.weight; });
+            [&](double, const StepTotals<2>& totals) { unbalanced = totals.unbalanced_force / totals.weight; });
   return unbalanced < 3e-3 ? roughness(body) : std::nan("");
 }
 

@@ -123,8 +123,8 @@ TEST(Schemes, PointOnACornerOfTheGridStaysWithoutStress) {
     locate_points(body, true);
     StepSettings settings;
     settings.scheme = scheme;
-    run_until(body, 6, 0.3, settings, [&](double t, const StepBooks<2>& books) {
-      ASSERT_NEAR(books.kinetic_energy, 0.5, 1e-12) << "t = " << t;
+    run_until(body, 6, 0.3, settings, [&](double t, const StepTotals<2>& totals) {
+      ASSERT_NEAR(totals.kinetic_energy, 0.5, 1e-12) << "t = " << t;
     });
     const auto& points = body.blocks()[0].points;
     EXPECT_NEAR(points.x[0][0], 7, 1e-10);
@@ -145,15 +145,15 @@ TEST(Schemes, BlockWithItsEdgesOnLinesMovesOnAsItIs) {
     locate_points(body, true);
     StepSettings settings;
     settings.scheme = scheme;
-    run_until(body, 5, 0.3, settings, [&](double t, const StepBooks<2>& books) {
-      ASSERT_NEAR(books.kinetic_energy, 9 * 0.125, 1e-9) << "t = " << t;
+    run_until(body, 5, 0.3, settings, [&](double t, const StepTotals<2>& totals) {
+      ASSERT_NEAR(totals.kinetic_energy, 9 * 0.125, 1e-9) << "t = " << t;
     });
   }
 }
 
 /// The error of the books of soft ground that swings for half a second, over the largest kinetic energy. It starts with
 /// the stress of its weight and with a pressure of 20 kPa more and less from element to element. Nothing takes energy.
-double error_of_books(Cells cells, double safety) {
+double error_of_totals(Cells cells, double safety) {
   auto body = soft_slope(cells, 0.5, 0.5 / 3, 0.45);
   auto& points = body.blocks()[0].points;
   for (int p = 0; p < points.size(); ++p) {
@@ -162,10 +162,10 @@ double error_of_books(Cells cells, double safety) {
   StepSettings settings;
   settings.scheme = two_terms();
   double balance = 0, largest = 0, worst = 0;
-  run_until(body, 0.5, safety, settings, [&](double, const StepBooks<2>& books) {
-    balance += books.work_gravity - books.work_stress - books.dissipation_pic - books.dissipation_waves;
-    largest = std::max(largest, books.kinetic_energy);
-    worst = std::max(worst, std::abs(books.kinetic_energy - balance));
+  run_until(body, 0.5, safety, settings, [&](double, const StepTotals<2>& totals) {
+    balance += totals.work_gravity - totals.work_stress - totals.dissipation_pic - totals.dissipation_waves;
+    largest = std::max(largest, totals.kinetic_energy);
+    worst = std::max(worst, std::abs(totals.kinetic_energy - balance));
   });
   return worst / largest;
 }
@@ -174,7 +174,7 @@ TEST(Schemes, BooksOfTrianglesClose) {
   // The mean stress that nodes feel is that of a patch, and so is the volume strain that stress works on. Were only one
   // of them, the books would be off by what the stress of elements differs from their patch's, whatever the time step:
   // by 1.2 here. What is left is the error of the time integration, of first order in dt.
-  const double whole = error_of_books(Cells::triangles, 0.5), half = error_of_books(Cells::triangles, 0.25);
+  const double whole = error_of_totals(Cells::triangles, 0.5), half = error_of_totals(Cells::triangles, 0.25);
   std::printf("books of swinging ground on triangles: off by %.2e, by %.2e with half the time step\n", whole, half);
   EXPECT_LT(whole, 0.1);
   EXPECT_LT(half, 0.6 * whole);

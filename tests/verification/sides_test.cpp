@@ -67,10 +67,10 @@ TEST(AbsorbingSide, LetsAPulseGo) {
     put_pulse(body);
     const double before = energy(body);
     double taken = 0, held = 0, spring = 0;
-    run_until(body, 16 / c, safety, {}, [&](double, const StepBooks<2>& books) {
-      taken += books.dissipation_absorbing;
-      held += books.work_boundary;
-      spring += books.stored_sides;
+    run_until(body, 16 / c, safety, {}, [&](double, const StepTotals<2>& totals) {
+      taken += totals.dissipation_absorbing;
+      held += totals.work_boundary;
+      spring += totals.stored_sides;
     });
     const double left = energy(body) / before;
     EXPECT_LT(left, 0.01);
@@ -88,7 +88,7 @@ TEST(AbsorbingSide, SendsBackWhatAnotherImpedanceSays) {
   open_right(body, 0.0, std::array<double, 2>{2 * Z, 2 * Z});
   put_pulse(body);
   const double before = energy(body);
-  run_until(body, 16 / c, 0.5, {}, [](double, const StepBooks<2>&) {});
+  run_until(body, 16 / c, 0.5, {}, [](double, const StepTotals<2>&) {});
   EXPECT_NEAR(std::sqrt(energy(body) / before), 1.0 / 3, 0.02);
 }
 
@@ -119,11 +119,11 @@ TEST(AbsorbingSide, GivesAsMuchAsTheSoilBeyondWould) {
   auto body = bar(-g);
   open_right(body, delta);
   double balanced = 0, kinetic = 0, work = 0;
-  run_until(body, 10 * (L + delta) / c, 0.5, {}, [&](double, const StepBooks<2>& books) {
-    balanced +=
-        books.work_gravity + books.work_boundary - books.work_stress - books.dissipation_absorbing - books.stored_sides;
-    work += books.work_gravity;
-    kinetic = books.kinetic_energy;
+  run_until(body, 10 * (L + delta) / c, 0.5, {}, [&](double, const StepTotals<2>& totals) {
+    balanced += totals.work_gravity + totals.work_boundary - totals.work_stress - totals.dissipation_absorbing -
+                totals.stored_sides;
+    work += totals.work_gravity;
+    kinetic = totals.kinetic_energy;
   });
   const double u = -rho * g * L * delta / M;
   for (const auto& node : body.fields[0].outside.sides.node) EXPECT_NEAR(node.u[0], u, 0.01 * std::abs(u));
@@ -133,7 +133,7 @@ TEST(AbsorbingSide, GivesAsMuchAsTheSoilBeyondWould) {
   open_right(dashpot, 0.0);
   double v = 0;
   run_until(dashpot, 10 * L / c, 0.5, {},
-            [&](double, const StepBooks<2>& books) { v = books.momentum[0] / books.mass; });
+            [&](double, const StepTotals<2>& totals) { v = totals.momentum[0] / totals.mass; });
   EXPECT_NEAR(v, -rho * g * L / Z, 0.01 * rho * g * L / Z);
 }
 

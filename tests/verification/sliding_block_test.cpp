@@ -36,10 +36,10 @@ Slide slide(const Block& its, double time) {
   double gravity = 0, kinetic = 0;
   StepSettings settings;
   settings.scheme = its.scheme;
-  run_until(body, time, its.safety, settings, [&](double, const StepBooks<2>& books) {
-    work += books.work_gravity - books.work_stress - books.dissipation_friction;
-    gravity += books.work_gravity;
-    kinetic = books.kinetic_energy;
+  run_until(body, time, its.safety, settings, [&](double, const StepTotals<2>& totals) {
+    work += totals.work_gravity - totals.work_stress - totals.dissipation_friction;
+    gravity += totals.work_gravity;
+    kinetic = totals.kinetic_energy;
     for (const double y : body.blocks()[0].points.x[1]) highest = std::max(highest, y);
   });
   double moved = 0;

@@ -83,9 +83,9 @@ TEST(StiffSide, SendsBackWhatItsImpedanceSays) {
       put_pulse(body);
       double taken = 0;
       const double before = 2 * 0.1 * 0.1 * 0.5 * rho * h * 6 * 3 / 8;  // ∫ cos⁴ is 3/8
-      run_until(body, 16 / c, 0.8, with(scheme), [&](double, const StepBooks<2>& books) {
-        taken += books.dissipation_absorbing;
-        EXPECT_GE(books.dissipation_absorbing, -1e-4 * before) << r;
+      run_until(body, 16 / c, 0.8, with(scheme), [&](double, const StepTotals<2>& totals) {
+        taken += totals.dissipation_absorbing;
+        EXPECT_GE(totals.dissipation_absorbing, -1e-4 * before) << r;
       });
       const double sent = (1 - r) / (1 + r);
       std::printf("%s, ratio %g: %.4f of the amplitude (right: %.4f), %.4f of the energy taken (right: %.4f)\n", name,
@@ -102,7 +102,7 @@ TEST(StiffSide, WithoutEndIsAFixedOne) {
     open_right(stiff, 1e5, 40);
     for (auto* body : {&fixed, &stiff}) {
       put_pulse(*body);
-      run_until(*body, 16 / c, 0.8, with(scheme), [](double, const StepBooks<2>&) {});
+      run_until(*body, 16 / c, 0.8, with(scheme), [](double, const StepTotals<2>&) {});
     }
     const auto &a = fixed.blocks()[0].points, &b = stiff.blocks()[0].points;
     double difference = 0;
@@ -132,14 +132,14 @@ TEST(StiffSide, BooksAStepToTheLastDigit) {
           stored -= 0.5 * node.k[0] * node.u[0] * node.u[0];
         }
         const auto settings = with(scheme, damping);
-        const auto books = advance(body, 0.8 * critical_time_step(body, scheme, damping), settings);
+        const auto totals = advance(body, 0.8 * critical_time_step(body, scheme, damping), settings);
         for (const auto& node : body.fields[0].outside.sides.node) stored += 0.5 * node.k[0] * node.u[0] * node.u[0];
-        EXPECT_NEAR(books.kinetic_energy - books.kinetic_energy_before,
-                    books.work_boundary - books.dissipation_absorbing - books.stored_sides - books.dissipation_damping -
-                        books.dissipation_pic,
-                    1e-12 * books.kinetic_energy)
+        EXPECT_NEAR(totals.kinetic_energy - totals.kinetic_energy_before,
+                    totals.work_boundary - totals.dissipation_absorbing - totals.stored_sides -
+                        totals.dissipation_damping - totals.dissipation_pic,
+                    1e-12 * totals.kinetic_energy)
             << name << ", ratio " << r << ", damping " << damping;
-        EXPECT_NEAR(books.stored_sides, stored, 1e-12 * books.kinetic_energy) << name << ", ratio " << r;
+        EXPECT_NEAR(totals.stored_sides, stored, 1e-12 * totals.kinetic_energy) << name << ", ratio " << r;
       }
     }
   }
@@ -188,16 +188,16 @@ void bears(Body<Dim> body, double r, int steps, const std::string& what) {
       before += 0.5 * points.mass[p] * points.v[j][p] * points.v[j][p];
     }
   }
-  StepBooks<Dim> books;
+  StepTotals<Dim> totals;
   for (int s = 0; s < steps; ++s) {
-    books = advance(body, dt, settings);
-    most = std::max(most, books.kinetic_energy);
-    taken += books.dissipation_absorbing;
+    totals = advance(body, dt, settings);
+    most = std::max(most, totals.kinetic_energy);
+    taken += totals.dissipation_absorbing;
   }
   std::printf("%s, ratio %g: %.2g of the energy after %d steps, sides took %.2g\n", what.c_str(), r,
-              books.kinetic_energy / before, steps, taken / before);
+              totals.kinetic_energy / before, steps, taken / before);
   EXPECT_LE(most, before) << what << ", ratio " << r;
-  EXPECT_LT(books.kinetic_energy, 0.5 * before) << what << ", ratio " << r;
+  EXPECT_LT(totals.kinetic_energy, 0.5 * before) << what << ", ratio " << r;
   EXPECT_GT(taken, 0) << what << ", ratio " << r;
 }
 

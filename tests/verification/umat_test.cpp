@@ -95,8 +95,8 @@ double difference_of_runs(const std::string& one, const std::string& other) {
   EXPECT_NEAR(critical_time_step(b) / critical, 1, 1e-14);
   double worst = 0;
   for (int step = 0; step < 400; ++step) {
-    const auto books = advance(a, 0.3 * critical, {}), others = advance(b, 0.3 * critical, {});
-    EXPECT_NEAR(others.stress.critical_dt / books.stress.critical_dt, 1, 1e-12);
+    const auto totals = advance(a, 0.3 * critical, {}), others = advance(b, 0.3 * critical, {});
+    EXPECT_NEAR(others.stress.critical_dt / totals.stress.critical_dt, 1, 1e-12);
     EXPECT_EQ(others.stress.failures, 0);
     const auto &p = a.blocks()[0].points, &q = b.blocks()[0].points;
     for (std::size_t c = 0; c < 4; ++c) worst = std::max(worst, largest_difference(p.sigma[c], q.sigma[c]) / 100);
@@ -280,9 +280,9 @@ TEST(UmatInTheMpm, TensorStateTurnsWithThePoints) {
   // W_xy of an anticlockwise turn is negative; Hughes–Winget turns by 2 atan(|W_xy|/2).
   std::fill(increments.spin[0].begin(), increments.spin[0].end(), -2 * std::tan(std::numbers::pi / 2 / 100 / 2));
   for (auto* column : {&increments.volume, &increments.per_mass}) std::fill(column->begin(), column->end(), 1.0);
-  exec::StressBooks books;
+  exec::StressTotals totals;
   for (int step = 0; step < 100; ++step)
-    exec::update_stresses(block, {block.order.data(), block.size()}, increments, 0, 1e-3, {}, books);
+    exec::update_stresses(block, {block.order.data(), block.size()}, increments, 0, 1e-3, {}, totals);
   const std::array<double, 4> turned_sigma{-10, -6, -7, -2}, turned_alpha{2, 1, -3, -4 * sqrt2};
   for (int p = 0; p < block.size(); ++p) {
     for (int c = 0; c < 4; ++c) {

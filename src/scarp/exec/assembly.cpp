@@ -13,13 +13,13 @@ void Assembly::rebuild(const Mesh<Dim>& mesh, const ActiveElements& active) {
   // Nodes in the order in which the elements touch them, so that sweeps over nodes and elements go through memory
   // alike.
   node_.clear();
-  of_place_.clear();
+  of_accumulator_.clear();
   ends_.clear();
   local_.resize(static_cast<std::size_t>(active.size()) * row_);
   nodes_.resize(local_.size());
-  int places = 0;
+  int accumulators = 0;
   for (int slot = 0; slot < active.size(); ++slot) {
-    if (slot == 0 || active.chunk[slot] != active.chunk[slot - 1]) ends_.push_back({slot, places, size()});
+    if (slot == 0 || active.chunk[slot] != active.chunk[slot - 1]) ends_.push_back({slot, accumulators, size()});
     int* local = local_.data() + static_cast<std::size_t>(slot) * row_;
     int* nodes = nodes_.data() + static_cast<std::size_t>(slot) * row_;
     for (const int n : mesh.element_nodes(active.element[slot])) {
@@ -28,26 +28,27 @@ void Assembly::rebuild(const Mesh<Dim>& mesh, const ActiveElements& active) {
         node_.push_back(n);
         latest.position = size();
       }
-      if (latest.place <= ends_.back().place) {  // the chunk has none for this node yet
-        latest.place = ++places;
-        of_place_.push_back(latest.position - 1);
+      if (latest.accumulator <= ends_.back().accumulator) {  // the chunk has none for this node yet
+        latest.accumulator = ++accumulators;
+        of_accumulator_.push_back(latest.position - 1);
       }
-      *local++ = latest.place - 1;
+      *local++ = latest.accumulator - 1;
       *nodes++ = latest.position - 1;
     }
   }
-  ends_.push_back({active.size(), places, size()});
+  ends_.push_back({active.size(), accumulators, size()});
 
   begin_.assign(node_.size() + 2, 0);
-  for (const int k : of_place_) ++begin_[k + 2];
+  for (const int k : of_accumulator_) ++begin_[k + 2];
   for (std::size_t k = 1; k < begin_.size(); ++k) begin_[k] += begin_[k - 1];
-  place_.resize(of_place_.size());
-  for (int place = 0; place < places; ++place) place_[begin_[of_place_[place] + 1]++] = place;
+  accumulator_.resize(of_accumulator_.size());
+  for (int accumulator = 0; accumulator < accumulators; ++accumulator)
+    accumulator_[begin_[of_accumulator_[accumulator] + 1]++] = accumulator;
 }
 
 void Assembly::reserve(std::size_t elements, std::size_t row) {
   const std::size_t rows = elements * row;
-  for (auto* list : {&local_, &nodes_, &node_, &place_, &of_place_}) list->reserve(rows);
+  for (auto* list : {&local_, &nodes_, &node_, &accumulator_, &of_accumulator_}) list->reserve(rows);
   begin_.reserve(rows + 2);
   ends_.reserve(elements + 1);
 }

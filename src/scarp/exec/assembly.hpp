@@ -1,7 +1,7 @@
-// From elements to nodes without races: each chunk of elements (mesh/chunks.hpp) has places of its own for the nodes that
-// it touches. The elements of a chunk add to its places one after the other, and every node gathers from its places in
-// the order of the chunks. The result is the same to the last bit on any number of threads, and a chunk's part of it
-// depends on the chunk alone.
+// From elements to nodes without races: each chunk of elements (mesh/chunks.hpp) has accumulators of its own for the
+// nodes that it touches. The elements of a chunk add to its accumulators one after the other, and every node gathers
+// from its accumulators in the order of the chunks. The result is the same to the last bit on any number of threads,
+// and a chunk's part of it depends on the chunk alone.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,16 @@
 
 namespace scarp::exec {
 
-/// What is a chunk's of the active elements' slots, of the places, and of the active nodes: those that it is the first
-/// to touch. From `first` to `last` − 1 each.
+/// What is a chunk's of the active elements' slots, of the accumulators, and of the active nodes: those that it is the
+/// first to touch. From `first` to `last` − 1 each.
 struct Chunk {
   struct Range {
     int first, last;
   };
-  Range slots, places, nodes;
+  Range slots, accumulators, nodes;
 };
 
-/// The active nodes with their places, and the places of the active elements' local nodes.
+/// The active nodes with their accumulators, and the accumulators of the active elements' local nodes.
 class Assembly {
  public:
   /// Most local nodes of an element.
@@ -31,26 +31,26 @@ class Assembly {
   int size() const { return static_cast<int>(node_.size()); }
   /// Its number in the mesh.
   int node(int k) const { return node_[k]; }
-  /// Number of places of all chunks.
-  std::size_t places() const { return static_cast<std::size_t>(ends_.back().place); }
+  /// Number of accumulators of all chunks.
+  std::size_t accumulators() const { return static_cast<std::size_t>(ends_.back().accumulator); }
 
   /// The chunks that have active elements, in the order of their numbers.
   int chunks() const { return static_cast<int>(ends_.size()) - 1; }
   Chunk chunk(int c) const {
     const Ends &from = ends_[c], &to = ends_[c + 1];
-    return {{from.slot, to.slot}, {from.place, to.place}, {from.node, to.node}};
+    return {{from.slot, to.slot}, {from.accumulator, to.accumulator}, {from.node, to.node}};
   }
 
-  /// The places of the local nodes of the active element in a slot.
-  const int* places_of(int slot) const { return local_.data() + static_cast<std::size_t>(slot) * row_; }
+  /// The accumulators of the local nodes of the active element in a slot.
+  const int* accumulators_of(int slot) const { return local_.data() + static_cast<std::size_t>(slot) * row_; }
 
   /// The numbers of these local nodes among the active nodes.
   const int* nodes_of(int slot) const { return nodes_.data() + static_cast<std::size_t>(slot) * row_; }
 
-  /// f(place) for each place of active node k: step 2 of the report, in a fixed order.
+  /// f(accumulator) for each accumulator of active node k: step 2 of the report, in a fixed order.
   template <class F>
   void gather(int k, F&& f) const {
-    for (int l = begin_[k]; l < begin_[k + 1]; ++l) f(place_[l]);
+    for (int l = begin_[k]; l < begin_[k + 1]; ++l) f(accumulator_[l]);
   }
 
   /// Makes it anew for other active elements; what it costs is theirs only.
@@ -62,17 +62,17 @@ class Assembly {
 
  private:
   struct Ends {
-    int slot = 0, place = 0, node = 0;
+    int slot = 0, accumulator = 0, node = 0;
   };
   int row_ = 0;
-  std::vector<Ends> ends_{Ends{}};         ///< where chunk c begins, and the one before ends
-  std::vector<int> local_;                 ///< rows of the active elements: places of their local nodes
-  std::vector<int> nodes_;                 ///< rows of the active elements: their local nodes among the active ones
-  std::vector<int> node_, begin_, place_;  ///< active nodes, and their places
-  std::vector<int> of_place_;              ///< scratch, of each place: its active node
+  std::vector<Ends> ends_{Ends{}};  ///< where chunk c begins, and the one before ends
+  std::vector<int> local_;          ///< rows of the active elements: accumulators of their local nodes
+  std::vector<int> nodes_;          ///< rows of the active elements: their local nodes among the active ones
+  std::vector<int> node_, begin_, accumulator_;  ///< active nodes, and their accumulators
+  std::vector<int> of_accumulator_;              ///< scratch, of each accumulator: its active node
   struct Latest {
-    int position = 0;  ///< one more than its number among the active nodes, or 0
-    int place = 0;     ///< one more than the latest given, or 0
+    int position = 0;     ///< one more than its number among the active nodes, or 0
+    int accumulator = 0;  ///< one more than the latest given, or 0
   };
   ZeroPages<Latest> latest_;  ///< scratch, of each node of the mesh
 };

@@ -1,5 +1,5 @@
-// Loops over many threads whose results do not depend on their number: work is cut into pieces that are the same for any
-// number of threads, and sums over them are taken in their order, or exact. The only place with OpenMP.
+// Loops over many threads whose results do not depend on their number: work is cut into pieces that are the same for
+// any number of threads, and sums over them are taken in their order, or exact. The only place with OpenMP.
 #pragma once
 
 #include <algorithm>

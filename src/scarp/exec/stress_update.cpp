@@ -54,7 +54,7 @@ class Update {
   /// From the columns of `block` to those of `to`, which may be the same.
   Update(const Model& model, const Block<Dim>& block, const UpdatedColumns<Dim>& to,
          const PointIncrements<Dim>& increments, double dt, const IntegrationSettings& settings,
-         const WaveSettings& waves, StressBooks& books)
+         const WaveSettings& waves, StressTotals& totals)
       : model_(model),
         block_(block),
         points_(block.points),
@@ -65,17 +65,17 @@ class Update {
         waves_(waves),
         damped_(waves.damped()),
         per_limit2_(waves.per_limit2(1.0)),
-        books_(books) {}
+        totals_(totals) {}
 
   void operator()(PointRange range, int at) {
     for_each_batch<Batch>(range, [&](const Lanes<Batch>& p, int first) { batch(p, at + first); });
     finish_stragglers();
-    books_.work += xsimd::hadd(work_);
-    books_.damping += xsimd::hadd(damping_);
+    totals_.work += xsimd::hadd(work_);
+    totals_.damping += xsimd::hadd(damping_);
     std::array<double, W> rate2;
     fastest2_.store_unaligned(rate2.data());
     const double most = std::max(most2_, *std::max_element(rate2.begin(), rate2.end()));
-    if (most > 0) books_.critical_dt = std::min(books_.critical_dt, 1 / std::sqrt(most));
+    if (most > 0) totals_.critical_dt = std::min(totals_.critical_dt, 1 / std::sqrt(most));
   }
 
  private:
@@ -125,16 +125,16 @@ class Update {
       work_ += work;
       damping_ += damping;
       fastest2_ = max(fastest2_, rate2);
-      books_.substeps += W;
-      books_.most_substeps = std::max(books_.most_substeps, 1);
+      totals_.substeps += W;
+      totals_.most_substeps = std::max(totals_.most_substeps, 1);
       return;
     }
     store_state(select_state(good, trial.state, old), p);
     for (int l = 0; l < p.count(); ++l) {
       if (done >> l & 1u) {
         const auto lane = static_cast<std::size_t>(l);
-        books_.work += work.get(lane);
-        books_.damping += damping.get(lane);
+        totals_.work += work.get(lane);
+        totals_.damping += damping.get(lane);
         record(p.point(l), 1,
                {trial.flags.corrected.get(lane), trial.flags.on_floor.get(lane), trial.flags.separated.get(lane), true},
                IntegrationEnd::done);
@@ -186,7 +186,7 @@ class Update {
         [&](int i, const State<double>& end, const IntegrationReport& report) {
           const auto [p, at] = stragglers_[i];
           const auto start = rotated_point(stragglers_[i]);  // the block's columns still hold the start
-          books_.work += increments_.volume[at] * 0.5 * dot(start.state.sigma + end.sigma, start.whole.deps);
+          totals_.work += increments_.volume[at] * 0.5 * dot(start.state.sigma + end.sigma, start.whole.deps);
           if (damped_) look_ahead(p, at, start, end, report);
           store_state(end, p);
           record(p, report.substeps, report.flags, report.end);
@@ -211,7 +211,7 @@ class Update {
       rate += (change - ahead[p] + points_.sigma[c][p]) * start.whole.deps[c];
       to_.sigma_ahead[c][p] = -(end.sigma[c] + change);
     }
-    books_.damping += increments_.volume[at] * 0.5 * rate;
+    totals_.damping += increments_.volume[at] * 0.5 * rate;
   }
 
   /// The state of a point, rotated with the body, and its increment.
@@ -231,14 +231,14 @@ class Update {
         static_cast<std::uint8_t>((flags.separated ? flag_separated : 0) | (flags.on_floor ? flag_on_floor : 0) |
                                   (failed ? flag_failed : 0) | (flags.corrected ? flag_corrected : 0));
     to_.substeps[p] = static_cast<std::uint8_t>(std::min(substeps, 255));
-    books_.substeps += substeps;
-    books_.most_substeps = std::max(books_.most_substeps, substeps);
-    books_.separated += flags.separated;
-    books_.on_floor += flags.on_floor;
-    books_.corrected += flags.corrected;
+    totals_.substeps += substeps;
+    totals_.most_substeps = std::max(totals_.most_substeps, substeps);
+    totals_.separated += flags.separated;
+    totals_.on_floor += flags.on_floor;
+    totals_.corrected += flags.corrected;
     if (!failed) return;
-    ++books_.failures;
-    books_.first_failed.keep_first({0, points_.id[p], end});
+    ++totals_.failures;
+    totals_.first_failed.keep_first({0, points_.id[p], end});
   }
 
   /// Of the points of a batch whose bits are set.
@@ -252,7 +252,7 @@ class Update {
       if (modulus.get(lane) > 0) {
         most2_ = std::max(most2_, rate2.get(lane));
       } else {
-        ++books_.no_stiffness;
+        ++totals_.no_stiffness;
       }
     }
   }
@@ -297,7 +297,7 @@ class Update {
   const WaveSettings& waves_;
   bool damped_;
   double per_limit2_;  ///< 1/k², where that is the same for all points
-  StressBooks& books_;
+  StressTotals& totals_;
   std::array<Straggler, 64> stragglers_;
   int straggler_count_ = 0;
   Batch work_ = Batch(0.0), damping_ = Batch(0.0), fastest2_ = Batch(0.0);
@@ -306,7 +306,7 @@ class Update {
 
 }  // namespace
 
-void StressBooks::add_counts(const StressBooks& other) {
+void StressTotals::add_counts(const StressTotals& other) {
   critical_dt = std::min(critical_dt, other.critical_dt);
   substeps += other.substeps;
   most_substeps = std::max(most_substeps, other.most_substeps);
@@ -324,17 +324,17 @@ namespace {
 template <int Dim>
 [[gnu::noinline]] void update(const Block<Dim>& block, const UpdatedColumns<Dim>& to, PointRange range,
                               const PointIncrements<Dim>& increments, int at, double dt,
-                              const IntegrationSettings& settings, StressBooks& books, const WaveSettings& waves) {
+                              const IntegrationSettings& settings, StressTotals& totals, const WaveSettings& waves) {
   std::visit(
       [&]<class Model>(const Model& model) {
         if constexpr (Averaged<Model>) {
           if (block.length > 0) {
             const Nonlocal<Model> nonlocal(model);
-            Update<Nonlocal<Model>, Dim>(nonlocal, block, to, increments, dt, settings, waves, books)(range, at);
+            Update<Nonlocal<Model>, Dim>(nonlocal, block, to, increments, dt, settings, waves, totals)(range, at);
             return;
           }
         }
-        Update<Model, Dim>(model, block, to, increments, dt, settings, waves, books)(range, at);
+        Update<Model, Dim>(model, block, to, increments, dt, settings, waves, totals)(range, at);
       },
       block.model);
 }
@@ -343,15 +343,15 @@ template <int Dim>
 
 template <int Dim>
 void update_stresses(Block<Dim>& block, PointRange range, const PointIncrements<Dim>& increments, int at, double dt,
-                     const IntegrationSettings& settings, StressBooks& books, const WaveSettings& waves) {
-  update(block, UpdatedColumns<Dim>(block), range, increments, at, dt, settings, books, waves);
+                     const IntegrationSettings& settings, StressTotals& totals, const WaveSettings& waves) {
+  update(block, UpdatedColumns<Dim>(block), range, increments, at, dt, settings, totals, waves);
 }
 
 template <int Dim>
 void trial_stresses(const Block<Dim>& block, TrialState<Dim>& trial, PointRange range,
                     const PointIncrements<Dim>& increments, int at, double dt, const IntegrationSettings& settings,
-                    StressBooks& books, const WaveSettings& waves) {
-  update(block, UpdatedColumns<Dim>(trial), range, increments, at, dt, settings, books, waves);
+                    StressTotals& totals, const WaveSettings& waves) {
+  update(block, UpdatedColumns<Dim>(trial), range, increments, at, dt, settings, totals, waves);
 }
 
 template <int Dim>
@@ -389,13 +389,13 @@ double critical_time_step(const Block<Dim>& block, const Mesh<Dim>& mesh, const 
 }
 
 template void update_stresses<2>(Block<2>&, PointRange, const PointIncrements<2>&, int, double,
-                                 const IntegrationSettings&, StressBooks&, const WaveSettings&);
+                                 const IntegrationSettings&, StressTotals&, const WaveSettings&);
 template void update_stresses<3>(Block<3>&, PointRange, const PointIncrements<3>&, int, double,
-                                 const IntegrationSettings&, StressBooks&, const WaveSettings&);
+                                 const IntegrationSettings&, StressTotals&, const WaveSettings&);
 template void trial_stresses<2>(const Block<2>&, TrialState<2>&, PointRange, const PointIncrements<2>&, int, double,
-                                const IntegrationSettings&, StressBooks&, const WaveSettings&);
+                                const IntegrationSettings&, StressTotals&, const WaveSettings&);
 template void trial_stresses<3>(const Block<3>&, TrialState<3>&, PointRange, const PointIncrements<3>&, int, double,
-                                const IntegrationSettings&, StressBooks&, const WaveSettings&);
+                                const IntegrationSettings&, StressTotals&, const WaveSettings&);
 template double critical_time_step<2>(const Block<2>&, const Mesh<2>&, const ActiveElements&, const Column&,
                                       const Column&, const WaveSettings&);
 template double critical_time_step<3>(const Block<3>&, const Mesh<3>&, const ActiveElements&, const Column&,

@@ -56,7 +56,7 @@ struct FailedPoint {
 };
 
 /// What stress updates did.
-struct StressBooks {
+struct StressTotals {
   double damping = 0;  ///< Σ Ω ½ (σ* − σ at t, and at t + dt) : dε
   double work = 0;     ///< Σ Ω ½ (σ^t + σ^{t+dt}) : dε, with σ^t rotated with the body
   double critical_dt = std::numeric_limits<double>::infinity();  ///< least 1 / (c/(k h) + |v|/h)
@@ -66,20 +66,20 @@ struct StressBooks {
   FailedPoint first_failed;
 
   /// Adds counts and extremes, no sums.
-  void add_counts(const StressBooks& other);
+  void add_counts(const StressTotals& other);
 };
 
 /// Updates stress, state, shear strain and flags of some points of a block over the time dt, from their strain and spin
 /// increments in `increments` from place `at` on.
 template <int Dim>
 void update_stresses(Block<Dim>& block, PointRange range, const PointIncrements<Dim>& increments, int at, double dt,
-                     const IntegrationSettings& settings, StressBooks& books, const WaveSettings& waves = {});
+                     const IntegrationSettings& settings, StressTotals& totals, const WaveSettings& waves = {});
 
 /// The same to the columns of a trial that is prepared for the block, which stays as it is.
 template <int Dim>
 void trial_stresses(const Block<Dim>& block, TrialState<Dim>& trial, PointRange range,
                     const PointIncrements<Dim>& increments, int at, double dt, const IntegrationSettings& settings,
-                    StressBooks& books, const WaveSettings& waves = {});
+                    StressTotals& totals, const WaveSettings& waves = {});
 
 /// The least 1 / (c/(k h) + |v|/h) over the points of a block, with c the compression wave speed of their present
 /// stiffness; infinite where no point has stiffness. `weight` is that of the points in the quadrature of the active

@@ -3,21 +3,21 @@
 namespace scarp::run {
 
 template <int Dim>
-void Ledger<Dim>::add(double step, int points, const StepBooks<Dim>& books) {
+void Ledger<Dim>::add(double step, int points, const StepTotals<Dim>& totals) {
   time += step;
   dt = step;
   ++steps;
   point_steps += points;
-  last = books;
-  search += books.search;
-  Energies::operator+=(books);
-  removed_kinetic_energy += books.removed_energy;
-  removed_mass += books.removed_mass;
-  removed_points += books.removed;
-  for (int i = 0; i < phases; ++i) seconds[i] += books.seconds[i];
-  failures += books.stress.failures;
-  corrected += books.stress.corrected;
-  substeps += books.stress.substeps;
+  last = totals;
+  search += totals.search;
+  Energies::operator+=(totals);
+  removed_kinetic_energy += totals.removed_energy;
+  removed_mass += totals.removed_mass;
+  removed_points += totals.removed;
+  for (int i = 0; i < phases; ++i) seconds[i] += totals.seconds[i];
+  failures += totals.stress.failures;
+  corrected += totals.stress.corrected;
+  substeps += totals.stress.substeps;
 }
 
 template <int Dim>

@@ -14,7 +14,7 @@ template <int Dim>
 struct Ledger : Energies {
   double time = 0, dt = 0;
   std::int64_t steps = 0, point_steps = 0;
-  StepBooks<Dim> last;  ///< of the last step; its sums of work are of that step only
+  StepTotals<Dim> last;  ///< of the last step; its sums of work are of that step only
   SearchCounts search;
   double initial_mass = 0, removed_mass = 0;
   double initial_kinetic_energy = 0, removed_kinetic_energy = 0;
@@ -22,7 +22,7 @@ struct Ledger : Energies {
   std::int64_t removed_points = 0, failures = 0, corrected = 0, substeps = 0;
 
   /// Books one step over `points` points.
-  void add(double step, int points, const StepBooks<Dim>& books);
+  void add(double step, int points, const StepTotals<Dim>& totals);
 
   /// Kinetic energy that nobody accounts for: ΔE_kin + removed − the sum of all terms of the balance, each with its
   /// sign.

@@ -48,7 +48,7 @@ class SignalGuard {
 template <int Dim>
 Ledger<Dim> open_ledger(const Body<Dim>& body) {
   Ledger<Dim> ledger;
-  book_motion(body, ledger.last);
+  record_motion(body, ledger.last);
   ledger.initial_mass = ledger.last.mass;
   ledger.initial_kinetic_energy = ledger.last.kinetic_energy;
   return ledger;

@@ -30,7 +30,7 @@ void set_to_zero(Body<Dim>& body, const input::StageInputOf<Dim>& stage, Ledger<
     }
   }
   if (stage.zero_velocity) ledger.removed_kinetic_energy += ledger.last.kinetic_energy;
-  book_motion(body, ledger.last);
+  record_motion(body, ledger.last);
 }
 
 /// A step that reaches `until` evenly, instead of with a sliver at its end.
@@ -102,7 +102,7 @@ void check_energy(const Context<Dim>& context, bool& said) {
 /// One step of the body; an error tells when it came. The ledger's time is then that of the failed step, for its state
 /// is what the last frame shows.
 template <int Dim>
-StepBooks<Dim> step(Context<Dim>& context, double dt, const StepSettings& settings) {
+StepTotals<Dim> step(Context<Dim>& context, double dt, const StepSettings& settings) {
   try {
     return advance(context.body, dt, settings);
   } catch (const RunError& error) {
@@ -235,11 +235,11 @@ void run_stage(Context<Dim>& context, int index, StageRecord& record) {
     const double next_lift = removal ? removal->next_time() : end;
     const double until = std::min({end, frames.next(), next_lift}) - ledger.time;
     const double dt = fitted(stable_time_step(context, critical), until);
-    const auto books = step(context, dt, settings);
-    ledger.add(dt, body.point_count(), books);
+    const auto totals = step(context, dt, settings);
+    ledger.add(dt, body.point_count(), totals);
     energy.step(ledger);
     if (end - ledger.time < 1e-9 * dt) ledger.time = end;
-    critical = books.stress.critical_dt;
+    critical = totals.stress.critical_dt;
     ++record.steps;
     resting =
         rest && rest->at_rest(ledger, body) && (!removal || removal->finished()) && imbalance.finished(ledger.time);

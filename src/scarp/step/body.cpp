@@ -86,7 +86,7 @@ template <int Dim>
 void make_room(const Body<Dim>& body, VelocityField<Dim>& field) {
   const auto elements = std::min(static_cast<std::size_t>(body.mesh->element_count()),
                                  4 * static_cast<std::size_t>(field.active.size()) + 1000);
-  const auto row = static_cast<std::size_t>(field.assembly.row()), places = elements * row;
+  const auto row = static_cast<std::size_t>(field.assembly.row()), accumulators = elements * row;
   const auto padded = padded_row(field.assembly.row());
   for (auto& block : field.blocks) reserve_order(block, elements);
   field.active.reserve(elements);
@@ -108,9 +108,9 @@ void make_room(const Body<Dim>& body, VelocityField<Dim>& field) {
   buffers.correction.reserve(elements * buffers.correction_row);
   if (body.mesh->axisymmetric) buffers.hoop_correction.reserve(elements * padded);
   buffers.mass_matrix.reserve(elements * mass_matrix_row(field.assembly.row()));
-  buffers.sums.reserve(places * transfer::node_sums<Dim>);
-  buffers.momentum.reserve(places * transfer::momentum_size<Dim>);
-  const auto nodes = std::min(places, static_cast<std::size_t>(body.mesh->node_count()));
+  buffers.sums.reserve(accumulators * transfer::node_sums<Dim>);
+  buffers.momentum.reserve(accumulators * transfer::momentum_size<Dim>);
+  const auto nodes = std::min(accumulators, static_cast<std::size_t>(body.mesh->node_count()));
   field.nodes.reserve(nodes);
   if (!body.patches.empty()) buffers.bounds.stiffness.reserve(nodes);
 }
@@ -205,7 +205,7 @@ void rebuild(const Body<Dim>& body, VelocityField<Dim>& field) {
   auto& buffers = field.buffers;
   const auto& active = field.active;
   field.assembly.rebuild(*body.mesh, active);
-  const auto slots = static_cast<std::size_t>(active.size()), places = field.assembly.places(),
+  const auto slots = static_cast<std::size_t>(active.size()), accumulators = field.assembly.accumulators(),
              nodes = static_cast<std::size_t>(field.assembly.size());
   buffers.inside.resize(slots);
   buffers.size.resize(slots);
@@ -230,8 +230,8 @@ void rebuild(const Body<Dim>& body, VelocityField<Dim>& field) {
   buffers.correction.resize(slots * buffers.correction_row);
   if (body.mesh->axisymmetric) buffers.hoop_correction.resize(slots * padded_row(field.assembly.row()));
   buffers.mass_matrix.resize(slots * mass_matrix_row(field.assembly.row()));
-  buffers.sums.resize(places * transfer::node_sums<Dim>);
-  buffers.momentum.resize(places * transfer::momentum_size<Dim>);
+  buffers.sums.resize(accumulators * transfer::node_sums<Dim>);
+  buffers.momentum.resize(accumulators * transfer::momentum_size<Dim>);
   field.nodes.resize(nodes);
 }
 
@@ -250,7 +250,7 @@ void prepare_threads(VelocityField<Dim>& field) {
   const auto threads = static_cast<std::size_t>(exec::thread_count());
   if (increments.size() < threads) increments.resize(threads);
   for (auto& of_thread : increments) of_thread.reserve(most);
-  if (field.buffers.books.size() < threads) field.buffers.books.resize(threads);
+  if (field.buffers.totals.size() < threads) field.buffers.totals.resize(threads);
 }
 
 template <int Dim>

@@ -16,27 +16,27 @@ void for_each_chunk(const VelocityField<Dim>& field, F&& f) {
 
 /// f(chunk, part), with a part of the thread's books for each chunk.
 template <int Dim, class F>
-void for_each_chunk(const VelocityField<Dim>& field, std::vector<BodyBooks<Dim>>& of_threads, F&& f) {
+void for_each_chunk(const VelocityField<Dim>& field, std::vector<BodyTotals<Dim>>& of_threads, F&& f) {
   for_each_chunk(field, [&](const exec::Chunk& chunk) {
-    auto& books = of_threads[exec::thread_number()];
-    f(chunk, books.part());
-    books.close_part();
+    auto& totals = of_threads[exec::thread_number()];
+    f(chunk, totals.part());
+    totals.close_part();
   });
 }
 
 /// A count of the step so far, of a field in this process.
 template <int Dim>
-std::int64_t counted(const VelocityField<Dim>& field, std::int64_t StepBooks<Dim>::*count) {
+std::int64_t counted(const VelocityField<Dim>& field, std::int64_t StepTotals<Dim>::*count) {
   std::int64_t sum = 0;
-  for (const auto& books : field.buffers.books) sum += books.part().*count;
+  for (const auto& totals : field.buffers.totals) sum += totals.part().*count;
   return sum;
 }
 
 /// What all threads have booked.
 template <int Dim>
-StepBooks<Dim> total_of(const std::vector<BodyBooks<Dim>>& of_threads) {
-  BodyBooks<Dim> all;
-  for (const auto& books : of_threads) all += books;
+StepTotals<Dim> total_of(const std::vector<BodyTotals<Dim>>& of_threads) {
+  BodyTotals<Dim> all;
+  for (const auto& totals : of_threads) all += totals;
   return all.total();
 }
 

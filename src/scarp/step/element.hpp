@@ -20,10 +20,10 @@ PointRange points_of(const Block<Dim>& block, const exec::Chunk& chunk) {
   return {block.order.data() + first, block.begin[chunk.slots.last] - first};
 }
 
-/// Zero in the places of a chunk, n numbers each.
-inline void clear_places(const exec::Chunk& chunk, Column& numbers, int n) {
-  std::fill(numbers.begin() + static_cast<std::ptrdiff_t>(chunk.places.first) * n,
-            numbers.begin() + static_cast<std::ptrdiff_t>(chunk.places.last) * n, 0.0);
+/// Zero in the accumulators of a chunk, n numbers each.
+inline void clear_accumulators(const exec::Chunk& chunk, Column& numbers, int n) {
+  std::fill(numbers.begin() + static_cast<std::ptrdiff_t>(chunk.accumulators.first) * n,
+            numbers.begin() + static_cast<std::ptrdiff_t>(chunk.accumulators.last) * n, 0.0);
 }
 
 /// f(basis, slot, element) for the active elements of a chunk.

@@ -79,8 +79,8 @@ SCARP_FLATTEN bool sum_points(Body<Basis::dim>& body, VelocityField<Basis::dim>&
     transfer::store_mass_matrix<Basis>(sums.M,
                                        buffers.mass_matrix.data() + slot * mass_matrix_row(field.assembly.row()));
   }
-  transfer::add_to_nodes<Basis>(sums, transfer::internal_force<Basis>(sums, quadrature), field.assembly.places_of(slot),
-                                buffers.sums.data());
+  transfer::add_to_nodes<Basis>(sums, transfer::internal_force<Basis>(sums, quadrature),
+                                field.assembly.accumulators_of(slot), buffers.sums.data());
   return true;
 }
 
@@ -101,30 +101,30 @@ void sum_points(Body<Basis::dim>& body, VelocityField<Basis::dim>& field, const 
 template <class Basis, int n>
 SCARP_FLATTEN void add_momentum_of_points(Body<Basis::dim>& body, VelocityField<Basis::dim>& field, int slot, int e,
                                           int from) {
-  constexpr int Dim = Basis::dim, size = transfer::place_size<n>;
+  constexpr int Dim = Basis::dim, size = transfer::accumulator_size<n>;
   const typename Basis::Cell cell(*body.mesh, e);
-  const int* places = field.assembly.places_of(slot);
+  const int* accumulators = field.assembly.accumulators_of(slot);
   double* momentum = field.buffers.momentum.data();
   const auto rows = motion_of_nodes<Basis>(field, slot, from);
   for (const auto& block : field.blocks) {
     const PointRange range = points_of(block, slot);
     if (from == 0) {
-      transfer::add_momentum<Basis, n, size, 0>(cell, block.points, range, rows, places, momentum);
+      transfer::add_momentum<Basis, n, size, 0>(cell, block.points, range, rows, accumulators, momentum);
     } else {
-      transfer::add_momentum<Basis, Dim, size, n - Dim>(cell, block.points, range, rows, places, momentum);
+      transfer::add_momentum<Basis, Dim, size, n - Dim>(cell, block.points, range, rows, accumulators, momentum);
     }
   }
 }
 
 template <int Dim>
-void book(const transfer::MotionSums<Dim>& sums, StepBooks<Dim>& books) {
-  books.mass += xsimd::hadd(sums.mass);
-  books.kinetic_energy += 0.5 * xsimd::hadd(sums.kinetic_energy);
-  books.dissipation_pic += 0.5 * xsimd::hadd(sums.taken);
-  for (int j = 0; j < Dim; ++j) books.momentum[j] += xsimd::hadd(sums.momentum[j]);
+void record(const transfer::MotionSums<Dim>& sums, StepTotals<Dim>& totals) {
+  totals.mass += xsimd::hadd(sums.mass);
+  totals.kinetic_energy += 0.5 * xsimd::hadd(sums.kinetic_energy);
+  totals.dissipation_pic += 0.5 * xsimd::hadd(sums.taken);
+  for (int j = 0; j < Dim; ++j) totals.momentum[j] += xsimd::hadd(sums.momentum[j]);
   double fastest2 = 0;
   for (std::size_t l = 0; l < sums.fastest2.size; ++l) fastest2 = std::max(fastest2, sums.fastest2.get(l));
-  books.max_velocity = std::max(books.max_velocity, std::sqrt(fastest2));
+  totals.max_velocity = std::max(totals.max_velocity, std::sqrt(fastest2));
 }
 
 /// Which of a few points, at x now, are still in their element, as bits of lanes; the local coordinates of these are
@@ -187,13 +187,13 @@ unsigned linger(const Body<Basis::dim>& body, const VelocityField<Basis::dim>& f
 /// Step 11 for those of a few points that are not `inside` element e any more.
 template <int Dim, class Lanes>
 [[gnu::noinline]] void find_new_elements(const Locator<Dim>& locator, int e, const Lanes& p, unsigned inside,
-                                         Points<Dim>& points, StepBooks<Dim>& books) {
+                                         Points<Dim>& points, StepTotals<Dim>& totals) {
   for (int l = 0; l < p.count(); ++l) {
     if (inside >> l & 1u) continue;
     const int i = p.point(l);
-    const auto place = locator.find(position_of(points, i), e, books.search);
-    books.changed_element += place.element != e;
-    books.left_mesh += place.element < 0;
+    const auto place = locator.find(position_of(points, i), e, totals.search);
+    totals.changed_element += place.element != e;
+    totals.left_mesh += place.element < 0;
     points.element[i] = place.element;
     for (int j = 0; j < Dim && !points.xi[j].empty(); ++j) points.xi[j][i] = place.xi[j];
   }
@@ -201,7 +201,7 @@ template <int Dim, class Lanes>
 
 /// What the sweep of steps 4 and 6 to 11 adds up over a chunk.
 template <int Dim>
-struct MotionBooks {
+struct MotionTotals {
   transfer::MotionSums<Dim> sums;
   std::int64_t stayed = 0;  ///< points that did not leave their element
 };
@@ -210,12 +210,12 @@ struct MotionBooks {
 template <bool pic, class Basis, class Averaged>
 SCARP_FLATTEN void move_points(Body<Basis::dim>& body, VelocityField<Basis::dim>& field, Block<Basis::dim>& block,
                                int slot, int e, const MoveRules& rules, PointIncrements<Basis::dim>& increments, int at,
-                               Averaged averaged, MotionBooks<Basis::dim>& motion, StepBooks<Basis::dim>& books) {
+                               Averaged averaged, MotionTotals<Basis::dim>& motion, StepTotals<Basis::dim>& totals) {
   const typename Basis::Cell cell(*body.mesh, e);
   transfer::Motion<Basis::dim> mean_motion;
   const auto element = element_motion<Basis>(body, field, slot, cell, rules.mends_massless, averaged, mean_motion);
   const auto a_dt = flip_changes<pic, Basis>(field, slot);
-  const std::int64_t changed = books.changed_element;
+  const std::int64_t changed = totals.changed_element;
   transfer::nodes_to_points<pic, Basis>(
       cell, element, a_dt, rules.motion, block.points, points_of(block, slot), increments, at, averaged, motion.sums,
       [&](const auto& p, const auto& x, const auto& before) {
@@ -224,9 +224,9 @@ SCARP_FLATTEN void move_points(Body<Basis::dim>& body, VelocityField<Basis::dim>
             [&](const auto& xi) { return linger<Basis>(body, field, cell, slot, xi, rules.lateness); });
         motion.stayed += std::popcount(inside);
         if (inside != first_bits(p.count()) && !rules.stay_there) [[unlikely]]
-          find_new_elements(body.locator, e, p, inside, block.points, books);
+          find_new_elements(body.locator, e, p, inside, block.points, totals);
       });
-  if (books.changed_element != changed) [[unlikely]]
+  if (totals.changed_element != changed) [[unlikely]]
     field.buffers.left[slot] = 1;
 }
 
@@ -235,19 +235,19 @@ template <bool pic, int Dim>
 [[gnu::noinline]] void strain_and_move_points(Body<Dim>& body, VelocityField<Dim>& field, Block<Dim>& block,
                                               const exec::Chunk& chunk, const MoveRules& rules,
                                               PointIncrements<Dim>& increments, exec::GapSharing<Dim>* sharing,
-                                              StepBooks<Dim>& books) {
-  MotionBooks<Dim> motion;
+                                              StepTotals<Dim>& totals) {
+  MotionTotals<Dim> motion;
   for_each_element(body, field, chunk, [&]<class Basis>(Basis, int slot, int e) {
     const int at = block.begin[slot] - block.begin[chunk.slots.first];
     transfer::with_means<Basis>(field.buffers.mean_dilatation[slot] != 0, [&](auto averaged) {
-      move_points<pic, Basis>(body, field, block, slot, e, rules, increments, at, averaged, motion, books);
+      move_points<pic, Basis>(body, field, block, slot, e, rules, increments, at, averaged, motion, totals);
     });
     if (sharing) sharing->in_element(points_of(block, slot), field.buffers.size[slot], at);
   });
-  book(motion.sums, books);
-  books.search.own += motion.stayed;
-  books.search.elements_examined += motion.stayed;
-  if (motion.stayed > 0) books.search.most_examined = std::max<std::int64_t>(books.search.most_examined, 1);
+  record(motion.sums, totals);
+  totals.search.own += motion.stayed;
+  totals.search.elements_examined += motion.stayed;
+  if (motion.stayed > 0) totals.search.most_examined = std::max<std::int64_t>(totals.search.most_examined, 1);
 }
 
 /// The columns that only some schemes have; σ* starts as the stress it is, and C_p as nothing.
@@ -274,9 +274,9 @@ void prepare_columns(Body<Dim>& body, VelocityField<Dim>& field, const Scheme& s
 template <int Dim>
 void map_points_to_elements(Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings) {
   prepare_columns(body, field, settings.scheme);
-  for_each_chunk(field, field.buffers.books, [&](const exec::Chunk& chunk, StepBooks<Dim>& part) {
+  for_each_chunk(field, field.buffers.totals, [&](const exec::Chunk& chunk, StepTotals<Dim>& part) {
     PointBatch<Dim> m_v2(0.0);
-    clear_places(chunk, field.buffers.sums, transfer::node_sums<Dim>);
+    clear_accumulators(chunk, field.buffers.sums, transfer::node_sums<Dim>);
     for_each_element(body, field, chunk, [&]<class Basis>(Basis, int slot, int e) {
       if constexpr (is_simplex<Basis>) field.buffers.patch_share[slot] = {};
       if (settings.scheme.affine) {
@@ -295,10 +295,11 @@ void map_points_to_elements(Body<Dim>& body, VelocityField<Dim>& field, const St
 template <int n, int Dim>
 void sum_with_mass_matrix(Body<Dim>& body, VelocityField<Dim>& field, int from) {
   for_each_chunk(field, [&](const exec::Chunk& chunk) {
-    clear_places(chunk, field.buffers.momentum, transfer::place_size<n>);
+    clear_accumulators(chunk, field.buffers.momentum, transfer::accumulator_size<n>);
     const transfer::Motion<Dim>* motion = field.nodes.motion.data();
     const double* matrices = field.buffers.mass_matrix.data();
-    const int *places = field.assembly.places_of(0), *nodes = field.assembly.nodes_of(0), row = field.assembly.row();
+    const int *accumulators = field.assembly.accumulators_of(0), *nodes = field.assembly.nodes_of(0),
+              row = field.assembly.row();
     const std::size_t size = mass_matrix_row(row);
     double* momentum = field.buffers.momentum.data();
     for_each_element(body, field, chunk, [&]<class Basis>(Basis, int slot, int e) {
@@ -307,35 +308,35 @@ void sum_with_mass_matrix(Body<Dim>& body, VelocityField<Dim>& field, int from) 
         const int* k_i = nodes + slot * row;
         const auto w = make_array<Basis::nodes>([&](auto i) { return motion[k_i[i]].row.data(); });
         if constexpr (n == Dim) {
-          transfer::add_momentum<Basis, n>(M, w, places + slot * row, momentum);
+          transfer::add_momentum<Basis, n>(M, w, accumulators + slot * row, momentum);
         } else {
-          transfer::add_products<Basis>(M, w, places + slot * row, momentum);
+          transfer::add_products<Basis>(M, w, accumulators + slot * row, momentum);
         }
       } else {
         add_momentum_of_points<Basis, n>(body, field, slot, e, from);
       }
     });
   });
-  field.halo.start(field.buffers.momentum, transfer::place_size<n>);
+  field.halo.start(field.buffers.momentum, transfer::accumulator_size<n>);
   field.halo.finish(field.buffers.momentum);
 }
 
 template <int Dim>
 void strain_and_move(Body<Dim>& body, VelocityField<Dim>& field, Block<Dim>& block, const exec::Chunk& chunk,
                      const MoveRules& rules, PointIncrements<Dim>& increments, exec::GapSharing<Dim>* sharing,
-                     StepBooks<Dim>& books) {
-  if (rules.books_pic) {
-    strain_and_move_points<true>(body, field, block, chunk, rules, increments, sharing, books);
+                     StepTotals<Dim>& totals) {
+  if (rules.records_pic) {
+    strain_and_move_points<true>(body, field, block, chunk, rules, increments, sharing, totals);
   } else {
-    strain_and_move_points<false>(body, field, block, chunk, rules, increments, sharing, books);
+    strain_and_move_points<false>(body, field, block, chunk, rules, increments, sharing, totals);
   }
 }
 
 template <int Dim>
 void strain_stress_and_motion(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings) {
   const auto& scheme = settings.scheme;
-  const MoveRules rules = move_rules(scheme, dt, counted(field, &StepBooks<Dim>::massless_nodes) > 0);
-  for_each_chunk(field, field.buffers.books, [&](const exec::Chunk& chunk, StepBooks<Dim>& part) {
+  const MoveRules rules = move_rules(scheme, dt, counted(field, &StepTotals<Dim>::massless_nodes) > 0);
+  for_each_chunk(field, field.buffers.totals, [&](const exec::Chunk& chunk, StepTotals<Dim>& part) {
     PointIncrements<Dim>& increments = field.buffers.increments[exec::thread_number()];
     for (auto& block : field.blocks) {
       exec::GapSharing<Dim> gaps(block, block.points.volume, increments, body.mesh->axisymmetric ? 3 : Dim, dt);
@@ -354,7 +355,7 @@ void strain_stress_and_motion(Body<Dim>& body, VelocityField<Dim>& field, double
       if (sharing) part.stress.work -= sharing->work(exec::UpdatedColumns<Dim>(block));
     }
   });
-  field.changed_element = counted(field, &StepBooks<Dim>::changed_element);
+  field.changed_element = counted(field, &StepTotals<Dim>::changed_element);
 }
 
 template void map_points_to_elements<2>(Body<2>&, VelocityField<2>&, const StepSettings&);
@@ -364,9 +365,9 @@ template void sum_with_mass_matrix<4>(Body<2>&, VelocityField<2>&, int);
 template void sum_with_mass_matrix<3>(Body<3>&, VelocityField<3>&, int);
 template void sum_with_mass_matrix<6>(Body<3>&, VelocityField<3>&, int);
 template void strain_and_move<2>(Body<2>&, VelocityField<2>&, Block<2>&, const exec::Chunk&, const MoveRules&,
-                                 PointIncrements<2>&, exec::GapSharing<2>*, StepBooks<2>&);
+                                 PointIncrements<2>&, exec::GapSharing<2>*, StepTotals<2>&);
 template void strain_and_move<3>(Body<3>&, VelocityField<3>&, Block<3>&, const exec::Chunk&, const MoveRules&,
-                                 PointIncrements<3>&, exec::GapSharing<3>*, StepBooks<3>&);
+                                 PointIncrements<3>&, exec::GapSharing<3>*, StepTotals<3>&);
 template void strain_stress_and_motion<2>(Body<2>&, VelocityField<2>&, double, const StepSettings&);
 template void strain_stress_and_motion<3>(Body<3>&, VelocityField<3>&, double, const StepSettings&);
 

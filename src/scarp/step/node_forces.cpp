@@ -53,8 +53,8 @@ Vec<Dim> constrained(const Body<Dim>& body, const VelocityField<Dim>& field, int
 }
 
 template <int Dim>
-void book_work_of_others(Body<Dim>& body, VelocityField<Dim>& field, int k, const StepSettings& settings,
-                         unsigned components, Vec<Dim> path, StepBooks<Dim>& books) {
+void record_work_of_others(Body<Dim>& body, VelocityField<Dim>& field, int k, const StepSettings& settings,
+                           unsigned components, Vec<Dim> path, StepTotals<Dim>& totals) {
   const Node<Dim>& node = field.nodes.node[k];
   const int n = field.assembly.node(k);
   auto& outside = field.outside;
@@ -63,18 +63,18 @@ void book_work_of_others(Body<Dim>& body, VelocityField<Dim>& field, int k, cons
     const auto& resistance = field.nodes.resistance[k];
     for (int j = 0; j < Dim; ++j) {
       if (!(components >> j & 1u)) continue;
-      books.dissipation_damping -= resistance.F_damping[j] * path[j];
-      books.dissipation_friction -= resistance.F_friction[j] * path[j];
+      totals.dissipation_damping -= resistance.F_damping[j] * path[j];
+      totals.dissipation_friction -= resistance.F_friction[j] * path[j];
     }
   }
   const bool pushed = !field.nodes.push.empty();
   if (!outside.active() && !pushed) return;
   const unsigned set = set_components(body.conditions, settings.scheme.wall, n, node.held) | ~components;
   if (outside.active()) {
-    outside.book_works(n, node.m, set, field.nodes.resistance[k].F_dashpot, path, books);
+    outside.record_works(n, node.m, set, field.nodes.resistance[k].F_dashpot, path, totals);
   }
   for (int j = 0; j < Dim && pushed; ++j) {
-    if (!(set >> j & 1u)) books.work_interaction += field.nodes.push[k][j] * path[j];
+    if (!(set >> j & 1u)) totals.work_interaction += field.nodes.push[k][j] * path[j];
   }
 }
 
@@ -84,9 +84,9 @@ template ForceAndAcceleration<3> resisted_by<3>(Body<3>&, VelocityField<3>&, int
                                                 ForceAndAcceleration<3>);
 template Vec<2> constrained<2>(const Body<2>&, const VelocityField<2>&, int, const Scheme&, Vec<2>);
 template Vec<3> constrained<3>(const Body<3>&, const VelocityField<3>&, int, const Scheme&, Vec<3>);
-template void book_work_of_others<2>(Body<2>&, VelocityField<2>&, int, const StepSettings&, unsigned, Vec<2>,
-                                     StepBooks<2>&);
-template void book_work_of_others<3>(Body<3>&, VelocityField<3>&, int, const StepSettings&, unsigned, Vec<3>,
-                                     StepBooks<3>&);
+template void record_work_of_others<2>(Body<2>&, VelocityField<2>&, int, const StepSettings&, unsigned, Vec<2>,
+                                       StepTotals<2>&);
+template void record_work_of_others<3>(Body<3>&, VelocityField<3>&, int, const StepSettings&, unsigned, Vec<3>,
+                                       StepTotals<3>&);
 
 }  // namespace scarp::step

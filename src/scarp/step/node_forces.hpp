@@ -1,6 +1,6 @@
 // Forces from outside at the nodes of a field: gravity, what OutsideForces has, local damping, and what the conditions
 // of the mesh do. Here they enter (F_ext of eq. 3, resisted_by), here the work of all but gravity is booked
-// (book_work), and Resistance records what resisted and what held. Not for use outside step/.
+// (record_work), and Resistance records what resisted and what held. Not for use outside step/.
 #pragma once
 
 #include "scarp/step/phases.hpp"
@@ -46,16 +46,16 @@ constexpr unsigned all_components = ~0u;
 
 /// Books the work of what acts on node k, in some of its components.
 template <int Dim>
-void book_work_of_others(Body<Dim>& body, VelocityField<Dim>& field, int k, const StepSettings& settings,
-                         unsigned components, Vec<Dim> path, StepBooks<Dim>& books);
+void record_work_of_others(Body<Dim>& body, VelocityField<Dim>& field, int k, const StepSettings& settings,
+                           unsigned components, Vec<Dim> path, StepTotals<Dim>& totals);
 
 /// Books the work of forces on active node k that are no part of the body's own, in some of its components, on the path
 /// that these make (before γ of sides).
 template <int Dim>
-inline void book_work(Body<Dim>& body, VelocityField<Dim>& field, int k, const StepSettings& settings,
-                      unsigned components, const Vec<Dim>& path, StepBooks<Dim>& books) {
+inline void record_work(Body<Dim>& body, VelocityField<Dim>& field, int k, const StepSettings& settings,
+                        unsigned components, const Vec<Dim>& path, StepTotals<Dim>& totals) {
   if (field.nodes.node[k].acted_on) [[unlikely]]
-    book_work_of_others<Dim>(body, field, k, settings, components, path, books);
+    record_work_of_others<Dim>(body, field, k, settings, components, path, totals);
 }
 
 }  // namespace scarp::step

@@ -14,14 +14,14 @@ namespace {
 
 /// Ω̂ |B_i|² of an element, of its mean gradients.
 template <class Basis>
-void add_stiffness(const typename Basis::Cell& cell, double volume, const int* place, double* nodes) {
+void add_stiffness(const typename Basis::Cell& cell, double volume, const int* accumulator, double* nodes) {
   const transfer::Means<Basis> means(cell);
   std::array<double, transfer::nodal_size<Basis>> B, B2{};
   for (const auto& component : means.gradient) {
     transfer::store_nodal<Basis>(component, B.data());
     for (int i = 0; i < Basis::nodes; ++i) B2[i] += B[i] * B[i];
   }
-  for (int i = 0; i < Basis::nodes; ++i) nodes[place[i]] += volume * B2[i];
+  for (int i = 0; i < Basis::nodes; ++i) nodes[accumulator[i]] += volume * B2[i];
 }
 
 /// The largest value of a nodal field at the points of an element.
@@ -48,10 +48,10 @@ void bound_by_nodes(Body<Dim>& body, VelocityField<Dim>& field) {
   auto& bounds = field.buffers.bounds;
   bounds.age = 0;
   for_each_chunk(field, [&](const exec::Chunk& chunk) {
-    clear_places(chunk, momentum, 1);
+    clear_accumulators(chunk, momentum, 1);
     for_each_element(body, field, chunk, [&]<class Basis>(Basis, int slot, int e) {
       const typename Basis::Cell cell(*body.mesh, e);
-      add_stiffness<Basis>(cell, bounds.filled[slot], field.assembly.places_of(slot), momentum.data());
+      add_stiffness<Basis>(cell, bounds.filled[slot], field.assembly.accumulators_of(slot), momentum.data());
     });
   });
   field.halo.start(momentum, 1);

@@ -26,16 +26,16 @@ inline double fused(double a, double b, double c) {
 /// m_p (v_p^t² − v_p^{t+dt}²).
 template <int Dim>
 void take_velocity(Body<Dim>& body, VelocityField<Dim>& field, int k, const Vec<Dim>& v_next, double dt,
-                   const StepSettings& settings, StepBooks<Dim>& books) {
+                   const StepSettings& settings, StepTotals<Dim>& totals) {
   const Node<Dim>& node = field.nodes.node[k];
   Vec<Dim> path;
   for (int j = 0; j < Dim; ++j) {
     field.nodes.motion[k].dv(j) = v_next[j];
     field.nodes.a_dt[k][j] = 0;
     path[j] = 0.5 * (node.v[j] + v_next[j]) * dt;
-    books.dissipation_pic += 0.5 * node.m * (v_next[j] * v_next[j] - node.v[j] * node.v[j]);
+    totals.dissipation_pic += 0.5 * node.m * (v_next[j] * v_next[j] - node.v[j] * node.v[j]);
   }
-  book_work<Dim>(body, field, k, settings, all_components, path, books);
+  record_work<Dim>(body, field, k, settings, all_components, path, totals);
 }
 
 /// Step 3: a_n = (F_grav − F_int) / m_n (eq. 5), and what the scheme makes of it (scheme.hpp): c, by which the
@@ -43,7 +43,7 @@ void take_velocity(Body<Dim>& body, VelocityField<Dim>& field, int k, const Vec<
 /// is not balanced.
 template <int Dim>
 Vec<Dim> accelerate(Body<Dim>& body, VelocityField<Dim>& field, int k, const transfer::NodeSums<Dim>& sums, double dt,
-                    const StepSettings& settings, StepBooks<Dim>& books) {
+                    const StepSettings& settings, StepTotals<Dim>& totals) {
   const int n = field.assembly.node(k);
   Node<Dim>& node = field.nodes.node[k];
   const Scheme& scheme = settings.scheme;
@@ -71,7 +71,7 @@ Vec<Dim> accelerate(Body<Dim>& body, VelocityField<Dim>& field, int k, const tra
   if (resisted) [[unlikely]]
     v_next = constrained<Dim>(body, field, k, scheme, v_next);
   if (scheme.affine) {
-    take_velocity<Dim>(body, field, k, v_next, dt, settings, books);
+    take_velocity<Dim>(body, field, k, v_next, dt, settings, totals);
   } else if (scheme.two_terms) {
     for (int j = 0; j < Dim; ++j) motion.du(j) = v_next[j];
     if (resisted && field.outside.sides.slows(n)) [[unlikely]] {
@@ -103,7 +103,7 @@ void with_sums(const VelocityField<Dim>& field, const exec::Chunk& chunk, F&& f)
   for (int k = chunk.nodes.first; k < chunk.nodes.last; ++k) {
     const Node<Dim>& node = field.nodes.node[k];
     if (node.m < field.least_mass) continue;
-    f(node, k, gathered<transfer::place_size<n>>(field, k, field.buffers.momentum));
+    f(node, k, gathered<transfer::accumulator_size<n>>(field, k, field.buffers.momentum));
   }
 }
 
@@ -111,7 +111,7 @@ void with_sums(const VelocityField<Dim>& field, const exec::Chunk& chunk, F&& f)
 
 template <int Dim>
 void accelerate_nodes(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings) {
-  for_each_chunk(field, field.buffers.books, [&](const exec::Chunk& chunk, StepBooks<Dim>& part) {
+  for_each_chunk(field, field.buffers.totals, [&](const exec::Chunk& chunk, StepTotals<Dim>& part) {
     double unbalanced = 0, mass = 0;
     for (int k = chunk.nodes.first; k < chunk.nodes.last; ++k) {
       const auto sums = gathered_sums(field, k);
@@ -197,8 +197,8 @@ template <int Dim>
 void velocities_of_nodes(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings) {
   const Scheme& scheme = settings.scheme;
   const double phi = scheme.kept(dt);
-  const bool filters = scheme.filters_motion(), books_pic = scheme::books_pic_at_nodes(scheme, dt);
-  for_each_chunk(field, field.buffers.books, [&](const exec::Chunk& chunk, StepBooks<Dim>& part) {
+  const bool filters = scheme.filters_motion(), records_pic = scheme::records_pic_at_nodes(scheme, dt);
+  for_each_chunk(field, field.buffers.totals, [&](const exec::Chunk& chunk, StepTotals<Dim>& part) {
     Vec<Dim> m_du{};
     double taken = 0;
     const auto of_node = [&](const Node<Dim>& node, int k, const auto& M_w) {
@@ -208,10 +208,10 @@ void velocities_of_nodes(Body<Dim>& body, VelocityField<Dim>& field, double dt, 
         v[j] = phi * node.v[j] + M_w[j] * node.per_mass;  // eq. 7 and eq. 8
         path[j] = 0.5 * (node.v[j] + v[j]) * dt;
       }
-      if (books_pic) taken += energy_of_flip(node, motion, M_w);
+      if (records_pic) taken += energy_of_flip(node, motion, M_w);
       // The others: of a scheme of two terms on P v, below; of one whose points take the velocity before, on that.
       const unsigned here = scheme.affine ? 0 : scheme.two_terms ? node.held : all_components;
-      if (here != 0) book_work<Dim>(body, field, k, settings, here, path, part);
+      if (here != 0) record_work<Dim>(body, field, k, settings, here, path, part);
       if (node.acted_on && is_resisted(body, field, field.assembly.node(k), settings.damping)) [[unlikely]]
         v = constrained<Dim>(body, field, k, scheme, v);
       for (int j = 0; j < Dim; ++j) motion.du(j) = v[j] * dt;  // eq. 16
@@ -240,7 +240,7 @@ void velocities_of_nodes(Body<Dim>& body, VelocityField<Dim>& field, double dt, 
 template <int Dim, class Sums>
 [[gnu::noinline]] Vec<Dim> displacement_of_others(Body<Dim>& body, VelocityField<Dim>& field, int k,
                                                   const StepSettings& settings, Vec<Dim> du, const Sums& M_w,
-                                                  StepBooks<Dim>& books) {
+                                                  StepTotals<Dim>& totals) {
   const Vec<Dim>& aside = field.nodes.half_path[k];
   const int n = field.assembly.node(k);
   const unsigned held = field.nodes.node[k].held;
@@ -254,7 +254,7 @@ template <int Dim, class Sums>
     if (held >> j & 1u) du[j] = aside[j];
     path[j] = aside[j] + 0.5 * du[j];
   }
-  if (settings.scheme.two_terms) book_work_of_others<Dim>(body, field, k, settings, ~held, path, books);
+  if (settings.scheme.two_terms) record_work_of_others<Dim>(body, field, k, settings, ~held, path, totals);
   if (is_resisted(body, field, n, settings.damping)) du = constrained<Dim>(body, field, k, settings.scheme, du);
   if (slowed) field.outside.sides.slow_down(n, du);
   return du;
@@ -262,7 +262,7 @@ template <int Dim, class Sums>
 
 template <int Dim>
 void filter_displacements(Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings) {
-  for_each_chunk(field, field.buffers.books, [&](const exec::Chunk& chunk, StepBooks<Dim>& part) {
+  for_each_chunk(field, field.buffers.totals, [&](const exec::Chunk& chunk, StepTotals<Dim>& part) {
     Vec<Dim> m_du{};
     with_sums<2 * Dim>(field, chunk, [&](const Node<Dim>& node, int k, const auto& M_w) {
       auto& motion = field.nodes.motion[k];

@@ -120,15 +120,16 @@ const Column& kappa_of(const Block<Dim>& block) {
 /// Where the local corner i of the element in a slot sums up.
 template <int Dim>
 std::size_t place_of(const Body<Dim>& body, const VelocityField<Dim>& field, int slot, int i) {
-  return 2 * static_cast<std::size_t>(body.mesh->grid ? (slot << Dim) + i : field.assembly.places_of(slot)[i]);
+  return 2 * static_cast<std::size_t>(body.mesh->grid ? (slot << Dim) + i : field.assembly.accumulators_of(slot)[i]);
 }
 
 /// Σ N κ′ Ω and Σ N Ω of each element.
 template <int Dim>
 void sum_elements(const Body<Dim>& body, VelocityField<Dim>& field) {
   Column& sums = field.averages.of_elements;
-  sums.assign(2 * (body.mesh->grid ? static_cast<std::size_t>(field.active.size()) << Dim : field.assembly.places()),
-              0.0);
+  sums.assign(
+      2 * (body.mesh->grid ? static_cast<std::size_t>(field.active.size()) << Dim : field.assembly.accumulators()),
+      0.0);
   for_each_chunk(field, [&](const exec::Chunk& chunk) {
     for (int slot = chunk.slots.first; slot < chunk.slots.last; ++slot) {
       with_functions(*body.mesh, field.active.element[slot], [&](auto K, const auto& at) {
@@ -167,7 +168,8 @@ void sum_corners(const Body<Dim>& body, VelocityField<Dim>& field, const Corners
     });
   } else {
     exec::for_each(field.assembly.size(), [&](int k) {
-      field.assembly.gather(k, [&](int place) { add(field.assembly.node(k), 2 * static_cast<std::size_t>(place)); });
+      field.assembly.gather(
+          k, [&](int accumulator) { add(field.assembly.node(k), 2 * static_cast<std::size_t>(accumulator)); });
     });
   }
 }

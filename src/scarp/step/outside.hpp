@@ -1,6 +1,6 @@
 // Forces from outside on the nodes of a field, besides gravity, damping and the conditions of the mesh, which all soil
 // has. A new one - a traction, a spring, an earthquake's - is a member here; it enters the nodes in add_forces(), its
-// work is booked in book_works(), and its energy gets a line in energies.hpp (node_forces.hpp has the rest).
+// work is booked in record_works(), and its energy gets a line in energies.hpp (node_forces.hpp has the rest).
 #pragma once
 
 #include "scarp/base/vec.hpp"
@@ -26,13 +26,13 @@ struct OutsideForces {
   }
 
   /// Books their work on node n along `path` [m], where the components in `set` do not move, and takes the sides along.
-  void book_works(int n, double m, unsigned set, const Vec<Dim>& F_dashpot, const Vec<Dim>& path, Energies& books) {
-    if (release.active()) books.work_release += work_of<Dim>(release, n, m, set, path);
+  void record_works(int n, double m, unsigned set, const Vec<Dim>& F_dashpot, const Vec<Dim>& path, Energies& totals) {
+    if (release.active()) totals.work_release += work_of<Dim>(release, n, m, set, path);
     if (!sides.holds(n)) return;
     const auto work = sides.move(n, m, set, F_dashpot, path);
-    books.work_boundary += work.held;
-    books.dissipation_absorbing += work.dashpot;
-    books.stored_sides += work.spring;
+    totals.work_boundary += work.held;
+    totals.dissipation_absorbing += work.dashpot;
+    totals.stored_sides += work.spring;
   }
 };
 

@@ -24,14 +24,14 @@ void for_each_simplex(Body<Dim>& body, VelocityField<Dim>& field, F&& f) {
 
 /// F_i += Vp B̄_i, in a body of revolution also of N_i / r.
 template <class Basis>
-void add_force(const transfer::Means<Basis>& means, double Vp, const int* place, double* nodes) {
+void add_force(const transfer::Means<Basis>& means, double Vp, const int* accumulator, double* nodes) {
   constexpr int Dim = Basis::dim;
   using Sums = transfer::NodeSums<Dim>;
   double B[transfer::nodal_size<Basis>];
   const auto add = [&](const transfer::Nodal<Basis>& of_nodes, int j) {
     transfer::store_nodal<Basis>(of_nodes, B);
     for (int i = 0; i < Basis::nodes; ++i)
-      nodes[static_cast<std::size_t>(place[i]) * Sums::size + Sums::internal_force_at + j] += Vp * B[i];
+      nodes[static_cast<std::size_t>(accumulator[i]) * Sums::size + Sums::internal_force_at + j] += Vp * B[i];
   };
   for (int j = 0; j < Dim; ++j) add(means.gradient[j], j);
   if constexpr (is_axisymmetric<Basis>) add(means.hoop[0], 0);
@@ -44,13 +44,13 @@ void add_mean_stresses(Body<Dim>& body, VelocityField<Dim>& field) {
   auto& buffers = field.buffers;
   for_each_simplex(body, field, [&]<class Basis>(Basis, int slot, int e, const transfer::Means<Basis>& means) {
     const double Vp = buffers.patch_share[slot].V * mean_over_patch(body, field, e, &PatchShare::p);
-    add_force<Basis>(means, Vp, field.assembly.places_of(slot), buffers.sums.data());
+    add_force<Basis>(means, Vp, field.assembly.accumulators_of(slot), buffers.sums.data());
   });
 }
 
 template <int Dim>
 void find_dilations(Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings) {
-  const bool mends = settings.scheme.mends_massless && counted(field, &StepBooks<Dim>::massless_nodes) > 0;
+  const bool mends = settings.scheme.mends_massless && counted(field, &StepTotals<Dim>::massless_nodes) > 0;
   for_each_simplex(body, field, [&]<class Basis>(Basis, int slot, int, const transfer::Means<Basis>& means) {
     auto motion = motion_of_nodes<Basis>(field, slot);
     transfer::Motion<Dim> mean_motion;

@@ -8,12 +8,12 @@
 
 namespace scarp::step {
 
-/// Step 2: the sum over the places of active node k, n numbers each.
+/// Step 2: the sum over the accumulators of active node k, n numbers each.
 template <int n, int Dim>
 std::array<double, n> gathered(const VelocityField<Dim>& field, int k, const Column& numbers) {
   std::array<double, n> sum{};
-  field.assembly.gather(k, [&](int place) {
-    const double* part = numbers.data() + static_cast<std::size_t>(place) * n;
+  field.assembly.gather(k, [&](int accumulator) {
+    const double* part = numbers.data() + static_cast<std::size_t>(accumulator) * n;
     for (int q = 0; q < n; ++q) sum[q] += part[q];
   });
   return sum;
@@ -63,6 +63,6 @@ void interact(Body<Dim>& body, double dt, const StepSettings& settings);
 
 /// The books of a step of dt, once all of it is in those of the fields and threads.
 template <int Dim>
-StepBooks<Dim> close_books(Body<Dim>& body, double dt, const StepSettings& settings);
+StepTotals<Dim> close_totals(Body<Dim>& body, double dt, const StepSettings& settings);
 
 }  // namespace scarp::step

@@ -61,9 +61,9 @@ void find_changed_elements(Body<Dim>& body, VelocityField<Dim>& field) {
 }
 
 template <int Dim>
-void book_energy_of_changed_elements(const Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings,
-                                     double sign) {
-  auto& books = field.buffers.books.front();
+void record_energy_of_changed_elements(const Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings,
+                                       double sign) {
+  auto& totals = field.buffers.totals.front();
   const auto& changed = field.buffers.changed;
   with_basis<Dim>(*body.mesh, changed.data(), 0, static_cast<int>(changed.size()), [&]<class Basis>(Basis, int, int e) {
     const int slot = field.active.slot[e];
@@ -74,14 +74,14 @@ void book_energy_of_changed_elements(const Body<Dim>& body, VelocityField<Dim>& 
       for (int k = 0; k < range.count; ++k) volume += block.points.volume[range.order[k]];
       of_points += exec::elastic_energy(block, range);
     }
-    books.part().energy_reweighted = sign * weight<Basis>(body, field, settings, slot, e, volume) * of_points;
-    books.close_part();
+    totals.part().energy_reweighted = sign * weight<Basis>(body, field, settings, slot, e, volume) * of_points;
+    totals.close_part();
   });
 }
 
 template void find_changed_elements<2>(Body<2>&, VelocityField<2>&);
 template void find_changed_elements<3>(Body<3>&, VelocityField<3>&);
-template void book_energy_of_changed_elements<2>(const Body<2>&, VelocityField<2>&, const StepSettings&, double);
-template void book_energy_of_changed_elements<3>(const Body<3>&, VelocityField<3>&, const StepSettings&, double);
+template void record_energy_of_changed_elements<2>(const Body<2>&, VelocityField<2>&, const StepSettings&, double);
+template void record_energy_of_changed_elements<3>(const Body<3>&, VelocityField<3>&, const StepSettings&, double);
 
 }  // namespace scarp::step

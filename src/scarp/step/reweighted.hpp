@@ -18,7 +18,7 @@ void find_changed_elements(Body<Dim>& body, VelocityField<Dim>& field);
 /// Books the energy stored in these elements, by the quadrature of the points that are in them by the present order:
 /// with the sign −1 before points are in their new order, and 1 after that.
 template <int Dim>
-void book_energy_of_changed_elements(const Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings,
-                                     double sign);
+void record_energy_of_changed_elements(const Body<Dim>& body, VelocityField<Dim>& field, const StepSettings& settings,
+                                       double sign);
 
 }  // namespace scarp::step

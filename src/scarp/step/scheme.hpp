@@ -102,7 +102,7 @@ inline Scheme apic_scheme() {
 namespace scheme {
 
 /// Is what PIC takes booked of sums at the nodes? Otherwise points book it, who then need a velocity more.
-inline bool books_pic_at_nodes(const Scheme& s, double dt) {
+inline bool records_pic_at_nodes(const Scheme& s, double dt) {
   return s.two_terms && s.kept(dt) < 1;
 }
 

@@ -56,17 +56,17 @@ void refuse_to_lose(const VelocityField<Dim>& field) {
 /// Takes out the points of a field that have left the mesh.
 template <int Dim>
 void remove_lost(VelocityField<Dim>& field) {
-  auto& books = field.buffers.books.front();
+  auto& totals = field.buffers.totals.front();
   for (auto& block : field.blocks) {
     const auto& points = block.points;
     std::vector<std::uint8_t> gone(points.element.size());
     for (int i = 0; i < block.size(); ++i) {
       gone[i] = points.element[i] < 0;
       if (!gone[i]) continue;
-      ++books.part().removed;
-      books.part().removed_mass = points.mass[i];
-      books.part().removed_energy = kinetic_energy_of(points, i);
-      books.close_part();
+      ++totals.part().removed;
+      totals.part().removed_mass = points.mass[i];
+      totals.part().removed_energy = kinetic_energy_of(points, i);
+      totals.close_part();
     }
     remove_points(block, gone);
   }
@@ -90,23 +90,23 @@ void order_points(Body<Dim>& body, const StepSettings& settings) {
   for (auto& field : body.fields) {
     if (field.changed_element == 0) continue;
     step::find_changed_elements(body, field);
-    step::book_energy_of_changed_elements(body, field, settings, -1);
-    if (step::counted(field, &StepBooks<Dim>::left_mesh) > 0) {
+    step::record_energy_of_changed_elements(body, field, settings, -1);
+    if (step::counted(field, &StepTotals<Dim>::left_mesh) > 0) {
       if (!settings.remove_leaving) refuse_to_lose(field);
       remove_lost(field);
     }
     order_points(body, field);
-    step::book_energy_of_changed_elements(body, field, settings, 1);
+    step::record_energy_of_changed_elements(body, field, settings, 1);
   }
 }
 
 }  // namespace
 
 template <int Dim>
-void book_motion(const Body<Dim>& body, StepBooks<Dim>& books) {
-  std::vector<BodyBooks<Dim>> of_threads(static_cast<std::size_t>(exec::thread_count()));
+void record_motion(const Body<Dim>& body, StepTotals<Dim>& totals) {
+  std::vector<BodyTotals<Dim>> of_threads(static_cast<std::size_t>(exec::thread_count()));
   for (const auto& field : body.fields) {
-    step::for_each_chunk(field, of_threads, [&](const exec::Chunk& chunk, StepBooks<Dim>& part) {
+    step::for_each_chunk(field, of_threads, [&](const exec::Chunk& chunk, StepTotals<Dim>& part) {
       for (const auto& block : field.blocks) {
         const auto& points = block.points;
         for (int k = block.begin[chunk.slots.first]; k < block.begin[chunk.slots.last]; ++k) {
@@ -120,32 +120,32 @@ void book_motion(const Body<Dim>& body, StepBooks<Dim>& books) {
     });
   }
   const auto total = step::total_of(of_threads);
-  books.mass = total.mass;
-  books.momentum = total.momentum;
-  books.kinetic_energy = total.kinetic_energy;
-  books.max_velocity = total.max_velocity;
+  totals.mass = total.mass;
+  totals.momentum = total.momentum;
+  totals.kinetic_energy = total.kinetic_energy;
+  totals.max_velocity = total.max_velocity;
 }
 
 namespace step {
 
 template <int Dim>
-StepBooks<Dim> close_books(Body<Dim>& body, double dt, const StepSettings& settings) {
-  BodyBooks<Dim> all;
+StepTotals<Dim> close_totals(Body<Dim>& body, double dt, const StepSettings& settings) {
+  BodyTotals<Dim> all;
   for (const auto& field : body.fields) {
-    for (const auto& of_thread : field.buffers.books) all += of_thread;
+    for (const auto& of_thread : field.buffers.totals) all += of_thread;
   }
-  auto books = all.total();
-  if (scheme::books_pic_at_nodes(settings.scheme, dt)) {
-    books.dissipation_pic += books.kinetic_energy_before - books.kinetic_energy;
+  auto totals = all.total();
+  if (scheme::records_pic_at_nodes(settings.scheme, dt)) {
+    totals.dissipation_pic += totals.kinetic_energy_before - totals.kinetic_energy;
   }
-  books.work_stress = books.stress.work;
-  books.dissipation_waves = books.stress.damping;
-  if (books.left_mesh > 0) book_motion(body, books);
-  return books;
+  totals.work_stress = totals.stress.work;
+  totals.dissipation_waves = totals.stress.damping;
+  if (totals.left_mesh > 0) record_motion(body, totals);
+  return totals;
 }
 
-template StepBooks<2> close_books<2>(Body<2>&, double, const StepSettings&);
-template StepBooks<3> close_books<3>(Body<3>&, double, const StepSettings&);
+template StepTotals<2> close_totals<2>(Body<2>&, double, const StepSettings&);
+template StepTotals<3> close_totals<3>(Body<3>&, double, const StepSettings&);
 
 }  // namespace step
 
@@ -156,9 +156,9 @@ template StepBooks<3> close_books<3>(Body<3>&, double, const StepSettings&);
 /// so that step 5 needs M_ij, summed up in step 1, and no points; these take their v_p^{t+dt} with the sweep that moves
 /// them.
 template <int Dim>
-StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings) {
+StepTotals<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings) {
   const auto timed = [&](Phase phase, auto&& f) {
-    const Stopwatch<Dim> watch(settings.profile, body.fields.front().buffers.books.front().part(), phase);
+    const Stopwatch<Dim> watch(settings.profile, body.fields.front().buffers.totals.front().part(), phase);
     f();
   };
   const auto each = [&](Phase phase, auto&& f) {
@@ -171,7 +171,7 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
   const Scheme& scheme = settings.scheme;
   for (auto& field : body.fields) {
     prepare_threads(field);
-    std::fill(field.buffers.books.begin(), field.buffers.books.end(), BodyBooks<Dim>());
+    std::fill(field.buffers.totals.begin(), field.buffers.totals.end(), BodyTotals<Dim>());
   }
   each(P::points_to_nodes, [&](Field& f) { step::map_points_to_elements(body, f, settings); });  // 1, eqs 1–4
   each(P::nodes, [&](Field& f) { step::accelerate_nodes(body, f, dt, settings); });              // 2, 3, eq. 5
@@ -201,7 +201,7 @@ StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings)
   }
   timed(P::order, [&] { order_points(body, settings); });  // 11
   if (step::softens_over_length(body)) timed(P::averages, [&] { step::average_softening(body, dt); });
-  return step::close_books(body, dt, settings);
+  return step::close_totals(body, dt, settings);
 }
 
 namespace {
@@ -236,11 +236,11 @@ double critical_time_step(Body<Dim>& body, const Scheme& scheme, double local_da
   return comm::least_of_all(dt);
 }
 
-template StepBooks<2> advance<2>(Body<2>&, double, const StepSettings&);
-template StepBooks<3> advance<3>(Body<3>&, double, const StepSettings&);
+template StepTotals<2> advance<2>(Body<2>&, double, const StepSettings&);
+template StepTotals<3> advance<3>(Body<3>&, double, const StepSettings&);
 template double critical_time_step<2>(Body<2>&, const Scheme&, double);
 template double critical_time_step<3>(Body<3>&, const Scheme&, double);
-template void book_motion<2>(const Body<2>&, StepBooks<2>&);
-template void book_motion<3>(const Body<3>&, StepBooks<3>&);
+template void record_motion<2>(const Body<2>&, StepTotals<2>&);
+template void record_motion<3>(const Body<3>&, StepTotals<3>&);
 
 }  // namespace scarp

@@ -23,7 +23,7 @@ struct StepSettings {
 
 /// Advances the body by dt. Throws RunError where a point leaves the mesh (unless it is to be removed).
 template <int Dim>
-StepBooks<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings);
+StepTotals<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings);
 
 /// The largest stable time step of a scheme with local damping for the present stiffness of every point: min 1 / (c/(k
 /// h) + |v|/h), with k of exec::WaveSettings. Infinite without stiffness.
@@ -32,6 +32,6 @@ double critical_time_step(Body<Dim>& body, const Scheme& scheme = {}, double loc
 
 /// Mass, momentum, kinetic energy and largest velocity of the points as they are.
 template <int Dim>
-void book_motion(const Body<Dim>& body, StepBooks<Dim>& books);
+void record_motion(const Body<Dim>& body, StepTotals<Dim>& totals);
 
 }  // namespace scarp

@@ -13,7 +13,7 @@ struct MoveRules {
   transfer::MotionRules motion;
   double lateness;
   bool mends_massless;      ///< and there are such nodes
-  bool books_pic;           ///< points book what PIC takes, or keep C_p
+  bool records_pic;         ///< points book what PIC takes, or keep C_p
   bool stay_there = false;  ///< points keep their element, wherever they go: of a trial
 };
 
@@ -31,6 +31,6 @@ inline MoveRules move_rules(const Scheme& scheme, double dt, bool massless_nodes
 template <int Dim>
 void strain_and_move(Body<Dim>& body, VelocityField<Dim>& field, Block<Dim>& block, const exec::Chunk& chunk,
                      const MoveRules& rules, PointIncrements<Dim>& increments, exec::GapSharing<Dim>* sharing,
-                     StepBooks<Dim>& books);
+                     StepTotals<Dim>& totals);
 
 }  // namespace scarp::step

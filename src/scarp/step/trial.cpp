@@ -45,14 +45,14 @@ void prepare(FieldTrial<Dim>& trial, const VelocityField<Dim>& field) {
 /// Its stress updates go to the books of the threads.
 template <int Dim>
 void form_trial(Body<Dim>& body, VelocityField<Dim>& field, double dt, const StepSettings& settings,
-                FieldTrial<Dim>& trial, std::vector<BodyBooks<Dim>>& of_threads) {
+                FieldTrial<Dim>& trial, std::vector<BodyTotals<Dim>>& of_threads) {
   const Scheme& scheme = settings.scheme;
   prepare_threads(field);
   prepare(trial, field);
   step::MoveRules rules = step::move_rules(scheme, dt, count_massless(field) > 0);
   rules.stay_there = true;
   if (step::uses_patches(body, settings)) step::find_dilations(body, field, settings);
-  const auto trial_of_block = [&](std::size_t b, const exec::Chunk& chunk, StepBooks<Dim>& part) {
+  const auto trial_of_block = [&](std::size_t b, const exec::Chunk& chunk, StepTotals<Dim>& part) {
     const Block<Dim>& block = field.blocks[b];
     Block<Dim>& moved = trial.moved[b];
     auto& increments = field.buffers.increments[exec::thread_number()];
@@ -63,7 +63,7 @@ void form_trial(Body<Dim>& body, VelocityField<Dim>& field, double dt, const Ste
                          part.stress, scheme::waves(scheme, is_elastic(block.model), settings.damping));
     if (sharing) part.stress.work -= sharing->work(exec::UpdatedColumns<Dim>(trial.blocks[b]));
   };
-  step::for_each_chunk(field, of_threads, [&](const exec::Chunk& chunk, StepBooks<Dim>& part) {
+  step::for_each_chunk(field, of_threads, [&](const exec::Chunk& chunk, StepTotals<Dim>& part) {
     for (std::size_t b = 0; b < field.blocks.size(); ++b) trial_of_block(b, chunk, part);
   });
   for (std::size_t b = 0; b < field.blocks.size(); ++b) std::swap(trial.moved[b].points.volume, trial.blocks[b].volume);
@@ -74,10 +74,10 @@ void form_trial(Body<Dim>& body, VelocityField<Dim>& field, double dt, const Ste
 template <int Dim>
 void form_trial(Body<Dim>& body, double dt, const StepSettings& settings, BodyTrial<Dim>& trial) {
   trial.fields.resize(body.fields.size());
-  trial.books.assign(static_cast<std::size_t>(exec::thread_count()), {});
+  trial.totals.assign(static_cast<std::size_t>(exec::thread_count()), {});
   for (std::size_t f = 0; f < body.fields.size(); ++f)
-    form_trial(body, body.fields[f], dt, settings, trial.fields[f], trial.books);
-  trial.stress = step::total_of(trial.books).stress;
+    form_trial(body, body.fields[f], dt, settings, trial.fields[f], trial.totals);
+  trial.stress = step::total_of(trial.totals).stress;
 }
 
 template <int Dim>

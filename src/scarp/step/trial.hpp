@@ -20,8 +20,8 @@ struct FieldTrial {
 template <int Dim>
 struct BodyTrial {
   std::vector<FieldTrial<Dim>> fields;
-  std::vector<BodyBooks<Dim>> books;  ///< scratch, of each thread
-  exec::StressBooks stress;           ///< of all fields
+  std::vector<BodyTotals<Dim>> totals;  ///< scratch, of each thread
+  exec::StressTotals stress;            ///< of all fields
 };
 
 /// Steps 6 to 9 (eqs 9 to 15, and the law of section 3) from the state at t^n and the displacements du_i [m] that the

@@ -11,9 +11,9 @@
 #include "scarp/comm/alone.hpp"
 #include "scarp/exec/assembly.hpp"
 #include "scarp/points/points.hpp"
-#include "scarp/step/books.hpp"
 #include "scarp/step/nonlocal.hpp"
 #include "scarp/step/outside.hpp"
+#include "scarp/step/totals.hpp"
 #include "scarp/transfer/mass_matrix.hpp"
 #include "scarp/transfer/node_sums.hpp"
 #include "scarp/transfer/node_values.hpp"
@@ -84,7 +84,7 @@ struct NodalState {
   }
 };
 
-/// What a step keeps of each active element, of each place of the assembly, and of each thread and chunk.
+/// What a step keeps of each active element, of each accumulator of the assembly, and of each thread and chunk.
 template <int Dim>
 struct Buffers {
   // Of each slot:
@@ -100,11 +100,11 @@ struct Buffers {
   NodeBounds bounds;
   Column hoop_correction;  ///< the same of N_i / r, in a body of revolution
   Column mass_matrix;      ///< M_ij, where elements keep it
-  // Of each place of the assembly:
+  // Of each accumulator of the assembly:
   Column sums;                                   ///< transfer::node_sums numbers
   Column momentum;                               ///< up to transfer::momentum_size numbers
   std::vector<PointIncrements<Dim>> increments;  ///< of each thread
-  std::vector<BodyBooks<Dim>> books;             ///< of each thread
+  std::vector<BodyTotals<Dim>> totals;           ///< of each thread
   // Elements whose quadrature changes with the points that do (reweighted.hpp), and which of all these are.
   std::vector<int> changed;
   ZeroPages<std::uint8_t> is_changed;

@@ -66,10 +66,10 @@ inline Lane<Basis> load_mass_matrix(const double* M) {
   return Lane<Basis>::load_unaligned(from + b % std::max(1, nodal_batches<Basis> / 2) * W);
 }
 
-/// Adds n components p of an element's local nodes to the places of its nodes, `size` numbers each, from number `first`
-/// on.
+/// Adds n components p of an element's local nodes to the accumulators of its nodes, `size` numbers each, from number
+/// `first` on.
 template <class Basis, int size, int first, std::size_t n>
-inline void momentum_to_places(const std::array<Nodal<Basis>, n>& p, const int* place, double* momentum) {
+inline void momentum_to_accumulators(const std::array<Nodal<Basis>, n>& p, const int* accumulator, double* momentum) {
   constexpr int W = lanes_of<Lane<Basis>>;
   repeat<nodal_batches<Basis>>([&](auto b) {
     std::array<Lane<Basis>, size> of_batch;
@@ -77,15 +77,15 @@ inline void momentum_to_places(const std::array<Nodal<Basis>, n>& p, const int* 
       constexpr bool used = first <= j && j < first + static_cast<int>(n);
       of_batch[j] = used ? p[used ? j - first : 0][b] : Lane<Basis>(0.0);
     });
-    add_to_places<std::min(W, Basis::nodes - b * W)>(of_batch, place + b * W, momentum);
+    add_to_accumulators<std::min(W, Basis::nodes - b * W)>(of_batch, accumulator + b * W, momentum);
   });
 }
 
-/// Σ_j M_ij w_j for n components w of the nodes of an element that keeps its M_ij, into the places of its nodes. With
-/// w = c that is steps 4 and 5: what the change c_j of the points' velocities adds to the momentum of local node i
+/// Σ_j M_ij w_j for n components w of the nodes of an element that keeps its M_ij, into the accumulators of its nodes.
+/// With w = c that is steps 4 and 5: what the change c_j of the points' velocities adds to the momentum of local node i
 /// (eqs 6, 7; step.cpp).
 template <class Basis, int n>
-inline void add_momentum(const double* M, const NodeRows<Basis>& rows, const int* place, double* momentum) {
+inline void add_momentum(const double* M, const NodeRows<Basis>& rows, const int* accumulator, double* momentum) {
   constexpr int K = Basis::nodes, batches = nodal_batches<Basis>;
   const auto w = make_array<n>([&](auto j) { return nodal<Basis>([&](int i) { return rows[i][j]; }); });
   std::array<Nodal<Basis>, n> p;
@@ -103,14 +103,14 @@ inline void add_momentum(const double* M, const NodeRows<Basis>& rows, const int
       }
     });
   });
-  momentum_to_places<Basis, place_size<n>, 0>(p, place, momentum);
+  momentum_to_accumulators<Basis, accumulator_size<n>, 0>(p, accumulator, momentum);
 }
 
 /// The same for all components of the nodes' Motion at once, side by side: what schemes with P need.
 template <class Basis>
-inline void add_products(const double* M, const NodeRows<Basis>& rows, const int* place, double* products) {
+inline void add_products(const double* M, const NodeRows<Basis>& rows, const int* accumulator, double* products) {
   constexpr int K = Basis::nodes, n = 2 * Basis::dim, size = row_size<n>;
-  static_assert(size == place_size<n>);
+  static_assert(size == accumulator_size<n>);
   using T = typename Row<n>::value_type;
   repeat<size / lanes_of<T>>([&](auto b) {
     const auto w = make_array<K>([&](auto i) { return T::load_aligned(rows[i] + b * lanes_of<T>); });
@@ -120,17 +120,17 @@ inline void add_products(const double* M, const NodeRows<Basis>& rows, const int
         constexpr int j = (i + k + 1) % K;
         p = fma(T(M[mass_matrix_place<Basis>(i, j)]), w[j], p);
       });
-      double* to = products + static_cast<std::size_t>(place[i]) * size + b * lanes_of<T>;
+      double* to = products + static_cast<std::size_t>(accumulator[i]) * size + b * lanes_of<T>;
       (T::load_unaligned(to) + p).store_unaligned(to);
     });
   });
 }
 
-/// n components w for an element that does not keep M_ij: Σ_p m_p N_i Σ_j N_j w_j, through its points. Places have
-/// `size` numbers, which this adds to from number `first` on.
+/// n components w for an element that does not keep M_ij: Σ_p m_p N_i Σ_j N_j w_j, through its points. Accumulators
+/// have `size` numbers, which this adds to from number `first` on.
 template <class Basis, int n, int size, int first>
 inline void add_momentum(const typename Basis::Cell& cell, const Points<Basis::dim>& points, const PointRange& range,
-                         const NodeRows<Basis>& rows, const int* place, double* momentum) {
+                         const NodeRows<Basis>& rows, const int* accumulator, double* momentum) {
   using T = PointBatch<Basis::dim>;
   const ShapesAtPoints<Basis> shapes(cell);
   const Field<Basis, n, Rows::just> w(cell, rows);
@@ -151,7 +151,7 @@ inline void add_momentum(const typename Basis::Cell& cell, const Points<Basis::d
       });
     });
   });
-  momentum_to_places<Basis, size, first>(totals<Basis>(sums), place, momentum);
+  momentum_to_accumulators<Basis, size, first>(totals<Basis>(sums), accumulator, momentum);
 }
 
 }  // namespace scarp::transfer

@@ -20,12 +20,12 @@ struct alignas(8 * std::bit_ceil(unsigned{row_size<2 * Dim>})) Motion {
   double du(int j) const { return row[Dim + j]; }
 };
 
-/// Numbers side by side for n components of a node in the places of the assembly: 2, 4 or 8.
+/// Numbers side by side for n components of a node in the accumulators of the assembly: 2, 4 or 8.
 template <int n>
-inline constexpr int place_size = static_cast<int>(std::bit_ceil(unsigned{n}));
+inline constexpr int accumulator_size = static_cast<int>(std::bit_ceil(unsigned{n}));
 /// The most that a step puts there: changes of velocity of two kinds.
 template <int Dim>
-inline constexpr int momentum_size = place_size<2 * Dim>;
+inline constexpr int momentum_size = accumulator_size<2 * Dim>;
 
 /// n components of each local node of an element: where their rows are. A row may be read to its whole row_size<n>.
 template <class Basis>

@@ -218,7 +218,7 @@ inline std::array<Nodal<Basis>, Basis::dim> internal_force(const ElementSums<Bas
 /// Adds m, p and F_int of an element to those of its nodes: step 2.
 template <class Basis>
 inline void add_to_nodes(const ElementSums<Basis>& sums, const std::array<Nodal<Basis>, Basis::dim>& F,
-                         const int* place, double* nodes) {
+                         const int* accumulator, double* nodes) {
   constexpr int Dim = Basis::dim, W = lanes_of<Lane<Basis>>;
   const auto m = total<Basis>(sums.m);
   const auto p = totals<Basis>(sums.p);
@@ -231,7 +231,7 @@ inline void add_to_nodes(const ElementSums<Basis>& sums, const std::array<Nodal<
       values[Sums::internal_force_at + j] = F[j][b];
     });
     if constexpr (Dim == 3) values[7] = Lane<Basis>(0.0);
-    add_to_places<std::min(W, Basis::nodes - b * W)>(values, place + b * W, nodes);
+    add_to_accumulators<std::min(W, Basis::nodes - b * W)>(values, accumulator + b * W, nodes);
   });
 }
 

@@ -16,11 +16,11 @@ class Fall {
 
   const Ledger<2>& step() {
     v_ += g_ * dt_;
-    StepBooks<2> books;
-    books.work_gravity = mass_ * g_ * v_ * dt_;
-    books.dissipation_damping = -lost_ * books.work_gravity;
-    books.kinetic_energy = 0.5 * mass_ * v_ * v_;
-    ledger.add(dt_, 1, books);
+    StepTotals<2> totals;
+    totals.work_gravity = mass_ * g_ * v_ * dt_;
+    totals.dissipation_damping = -lost_ * totals.work_gravity;
+    totals.kinetic_energy = 0.5 * mass_ * v_ * v_;
+    ledger.add(dt_, 1, totals);
     return ledger;
   }
   void turn() { v_ = -v_; }

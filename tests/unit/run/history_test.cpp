@@ -53,9 +53,9 @@ TEST(History, TheBalanceIsOfAllTerms) {
     balanced += term.sign * n;
   }
   EXPECT_DOUBLE_EQ(ledger.energy_error(), -balanced);
-  StepBooks<2> books;
-  for (const auto& term : energy_terms) books.*term.sum = 100;
-  ledger.add(0.1, 1, books);
+  StepTotals<2> totals;
+  for (const auto& term : energy_terms) totals.*term.sum = 100;
+  ledger.add(0.1, 1, totals);
   n = 0;
   for (const auto& term : energy_terms) EXPECT_EQ(ledger.*term.sum, 100 + ++n) << term.key;
 }

@@ -10,21 +10,21 @@ TEST(Ledger, AddsUpWhatStepsBook) {
   Ledger<2> ledger;
   double work = 0, removed_mass = 0;
   for (int n = 1; n <= 5; ++n) {
-    StepBooks<2> books;
-    books.work_gravity = n;
-    books.dissipation_friction = 0.5 * n;
-    books.removed_energy = 0.1 * n;
-    books.removed_mass = 0.01 * n;
-    books.removed = n;
-    books.search.own = 10 * n;
-    books.search.most_examined = 7 - n;
-    books.seconds[1] = 2 * n;
-    books.stress.failures = 3 * n;
-    books.stress.corrected = 4 * n;
-    books.stress.substeps = 5 * n;
-    books.kinetic_energy = 100 * n;
-    books.mass = 50 - n;
-    ledger.add(0.25 * n, 1000 + n, books);
+    StepTotals<2> totals;
+    totals.work_gravity = n;
+    totals.dissipation_friction = 0.5 * n;
+    totals.removed_energy = 0.1 * n;
+    totals.removed_mass = 0.01 * n;
+    totals.removed = n;
+    totals.search.own = 10 * n;
+    totals.search.most_examined = 7 - n;
+    totals.seconds[1] = 2 * n;
+    totals.stress.failures = 3 * n;
+    totals.stress.corrected = 4 * n;
+    totals.stress.substeps = 5 * n;
+    totals.kinetic_energy = 100 * n;
+    totals.mass = 50 - n;
+    ledger.add(0.25 * n, 1000 + n, totals);
     work += n;
     removed_mass += 0.01 * n;
   }
@@ -51,21 +51,21 @@ TEST(Ledger, AddsUpWhatStepsBook) {
 TEST(Ledger, EnergyClosesWhereEachTermHasItsSign) {
   Ledger<2> ledger;
   ledger.initial_kinetic_energy = 9;
-  StepBooks<2> books;
-  books.work_gravity = 10;
-  books.dissipation_friction = 4;
-  books.work_stress = 1;
-  books.kinetic_energy = 9 + 10 - 4 - 1;
-  ledger.add(1, 1, books);
+  StepTotals<2> totals;
+  totals.work_gravity = 10;
+  totals.dissipation_friction = 4;
+  totals.work_stress = 1;
+  totals.kinetic_energy = 9 + 10 - 4 - 1;
+  ledger.add(1, 1, totals);
   EXPECT_NEAR(ledger.energy_error(), 0, 1e-14);
   // Points that leave take 3 kJ with them; nothing is lost by that.
-  StepBooks<2> leaving;
+  StepTotals<2> leaving;
   leaving.kinetic_energy = 11;
   leaving.removed_energy = 3;
   ledger.add(1, 1, leaving);
   EXPECT_NEAR(ledger.energy_error(), 0, 1e-14);
   // What is re-weighted is shown and is no part of the balance; what nobody books is its error.
-  StepBooks<2> odd;
+  StepTotals<2> odd;
   odd.kinetic_energy = 11.5;
   odd.energy_reweighted = 7;
   ledger.add(1, 1, odd);

@@ -160,7 +160,7 @@ TEST(PointsToNodes, AreTheGeneralSumsOfAffinePoints) {
 template <int Dim>
 void expect_products() {
   for_every_basis<Dim>([]<class Basis>(Basis, const auto& cell, const auto&, const auto& points, const auto& which) {
-    constexpr int K = Basis::nodes, n = 2 * Dim, size = transfer::place_size<n>;
+    constexpr int K = Basis::nodes, n = 2 * Dim, size = transfer::accumulator_size<n>;
     const PointRange range{which.data(), static_cast<int>(which.size())};
     transfer::general::NodeSums<Basis> nodes;
     for (const int p : which) transfer::general::add_point<Basis>(cell, points, p, {}, points.sigma, nodes);
@@ -203,7 +203,7 @@ void expect_products() {
       expect(sums, size, 0, n, "side by side");
       sums.assign(K * size, 0);
       transfer::add_momentum<Basis, Dim>(kept.data(), rows, place.data(), sums.data());
-      expect(sums, transfer::place_size<Dim>, 0, Dim, "component by component");
+      expect(sums, transfer::accumulator_size<Dim>, 0, Dim, "component by component");
     }
   });
 }

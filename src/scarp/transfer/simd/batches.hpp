@@ -115,11 +115,11 @@ inline void transpose(std::array<T, T::size>& rows) {
   }
 }
 
-/// sums[place[l] * n + q] += lane l of values[q], for the first `count` lanes l and each q < n.
+/// sums[accumulator[l] * n + q] += lane l of values[q], for the first `count` lanes l and each q < n.
 template <int count, class T, std::size_t n>
-inline void add_to_places(const std::array<T, n>& values, const int* place, double* sums) {
+inline void add_to_accumulators(const std::array<T, n>& values, const int* accumulator, double* sums) {
   constexpr int W = static_cast<int>(T::size), N = static_cast<int>(n);
-  const auto at = [&](int l) { return sums + static_cast<std::size_t>(place[l]) * n; };
+  const auto at = [&](int l) { return sums + static_cast<std::size_t>(accumulator[l]) * n; };
 #if defined(__AVX512F__)
   if constexpr (W == 8 && N == 4) {  // as two halves
     using Half = typename detail::SizedBatch<4>::type;
@@ -128,8 +128,8 @@ inline void add_to_places(const std::array<T, n>& values, const int* place, doub
       low[q] = Half(_mm512_castpd512_pd256(values[q]));
       high[q] = Half(_mm512_extractf64x4_pd(values[q], 1));
     });
-    add_to_places<(count < 4 ? count : 4)>(low, place, sums);
-    add_to_places<(count < 4 ? 0 : count - 4)>(high, place + 4, sums);
+    add_to_accumulators<(count < 4 ? count : 4)>(low, accumulator, sums);
+    add_to_accumulators<(count < 4 ? 0 : count - 4)>(high, accumulator + 4, sums);
     return;
   }
 #endif

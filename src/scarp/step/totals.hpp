@@ -23,7 +23,7 @@ inline constexpr std::array<const char*, phases> phase_names{
     "stress and state (7)", "order of the points", "averages over lengths"};
 
 template <int Dim>
-struct StepBooks : Energies {
+struct StepTotals : Energies {
   double unbalanced_force = 0, weight = 0;  ///< Σ |F_grav − F_int| over free components and Σ |F_grav|, at nodes
   double kinetic_energy_before = 0;         ///< of the points at the start
   double kinetic_energy = 0, mass = 0, max_velocity = 0;  ///< of the points at the end
@@ -32,38 +32,38 @@ struct StepBooks : Energies {
   std::int64_t removed = 0;
   std::int64_t massless_nodes = 0;                  ///< active nodes that no point has a share in
   std::int64_t changed_element = 0, left_mesh = 0;  ///< points that did
-  exec::StressBooks stress;
+  exec::StressTotals stress;
   SearchCounts search;
   std::array<double, phases> seconds{};  ///< of each Phase, threads added up; only where asked for
 
   /// f(number) for each that is a sum over the body.
   template <class Self, class F>
-  static void each_sum(Self& books, F&& f) {
-    for (const auto& term : energy_terms) f(books.*term.sum);
+  static void each_sum(Self& totals, F&& f) {
+    for (const auto& term : energy_terms) f(totals.*term.sum);
     for (auto* sum :
-         {&books.unbalanced_force, &books.weight, &books.kinetic_energy_before, &books.kinetic_energy, &books.mass,
-          &books.removed_energy, &books.removed_mass, &books.stress.work, &books.stress.damping})
+         {&totals.unbalanced_force, &totals.weight, &totals.kinetic_energy_before, &totals.kinetic_energy, &totals.mass,
+          &totals.removed_energy, &totals.removed_mass, &totals.stress.work, &totals.stress.damping})
       f(*sum);
-    for (auto& component : books.momentum) f(component);
+    for (auto& component : totals.momentum) f(component);
   }
   static constexpr std::size_t sums = energy_terms.size() + 9 + Dim;
 
   /// Adds counts, extremes and times, no sums.
-  void add_counts(const StepBooks& other);
+  void add_counts(const StepTotals& other);
 };
 
 /// Books of many chunks: a part at a time goes to the sums, which are exact, so that they do not depend on the order of
 /// the parts, nor on who kept the books of which. Counts, extremes and times gather in the part itself.
 template <int Dim>
-class alignas(64) BodyBooks {
+class alignas(64) BodyTotals {
  public:
   /// Where the next part is booked; its sums are zero.
-  StepBooks<Dim>& part() { return part_; }
-  const StepBooks<Dim>& part() const { return part_; }
+  StepTotals<Dim>& part() { return part_; }
+  const StepTotals<Dim>& part() const { return part_; }
   /// Adds the sums of the part, and makes them zero.
   void close_part() {
     auto* exact = sums_.data();
-    StepBooks<Dim>::each_sum(part_, [&](double& sum) {
+    StepTotals<Dim>::each_sum(part_, [&](double& sum) {
       if (sum != 0) {
         exact->add(sum);
         sum = 0;
@@ -72,13 +72,13 @@ class alignas(64) BodyBooks {
     });
   }
 
-  BodyBooks& operator+=(const BodyBooks& other);
+  BodyTotals& operator+=(const BodyTotals& other);
   /// Of all processes.
-  StepBooks<Dim> total() const;
+  StepTotals<Dim> total() const;
 
  private:
-  StepBooks<Dim> part_;
-  std::array<ExactSum, StepBooks<Dim>::sums> sums_;
+  StepTotals<Dim> part_;
+  std::array<ExactSum, StepTotals<Dim>::sums> sums_;
 };
 
 /// Books the time that it lives to a phase, if `on`.
@@ -87,8 +87,8 @@ class Stopwatch {
   using Clock = std::chrono::steady_clock;
 
  public:
-  Stopwatch(bool on, StepBooks<Dim>& books, Phase phase)
-      : seconds_(on ? &books.seconds[static_cast<int>(phase)] : nullptr),
+  Stopwatch(bool on, StepTotals<Dim>& totals, Phase phase)
+      : seconds_(on ? &totals.seconds[static_cast<int>(phase)] : nullptr),
         start_(on ? Clock::now() : Clock::time_point{}) {}
   ~Stopwatch() {
     if (seconds_) *seconds_ += std::chrono::duration<double>(Clock::now() - start_).count();
