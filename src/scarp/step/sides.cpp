@@ -277,7 +277,6 @@ void open_side(Body<Dim>& body, const StepSettings& settings, const AbsorbingSid
   std::vector<int> taken;
   for (auto& field : body.fields) {
     const auto beyond = soil_beyond(body, field, side);
-    StepTotals<Dim> totals;
     prepare_threads(field);
     step::map_points_to_elements(body, field, settings);
     take_over(body, field, beyond, others, taken);
