@@ -2,7 +2,8 @@
 """Checks the includes of src/scarp against the arrows of docs/architecture.md.
 
 An include of another folder must follow an arrow; OpenMP is for exec/ only, MPI and PETSc for comm/ only, toml++ for
-input/ only. Prints each breach as file:line and exits with 1 where there is one; `--self-test` checks the check.
+input/ only. The picture on that page must be that of the arrows, which `--picture` prints. Prints each breach as
+file:line and exits with 1 where there is one; `--self-test` checks the check.
 """
 
 import pathlib
@@ -55,7 +56,18 @@ def breaches(source):
     return found
 
 
+def picture(arrows):
+    """The arrows as Mermaid draws them, without those that others imply."""
+    lines = ["```mermaid", "flowchart LR"]
+    for folder, below in arrows.items():
+        implied = set().union(*(arrows[other] for other in below)) if below else set()
+        lines += [f"    {other} --> {folder}" for other in arrows if other in below - implied]
+    return "\n".join([*lines, "    run --> apps", "```"])
+
+
 def self_test():
+    if picture({"a": set(), "b": {"a"}, "c": {"a", "b"}}).count("-->") != 3:  # a to b, b to c, run to apps
+        sys.exit("self-test: the picture has arrows that others imply, or lacks some")
     cases = [
         ("material/a.hpp", '#include "scarp/tensor/sym.hpp"', 0),
         ("material/a.hpp", '#include "scarp/mesh/mesh.hpp"', 1),
@@ -83,8 +95,14 @@ def main():
     self_test()
     if sys.argv[1:] == ["--self-test"]:
         return
-    source = pathlib.Path(__file__).resolve().parent.parent / "src" / "scarp"
-    found = breaches(source)
+    if sys.argv[1:] == ["--picture"]:
+        print(picture(ARROWS))
+        return
+    root = pathlib.Path(__file__).resolve().parent.parent
+    page = root / "docs" / "architecture.md"
+    found = breaches(root / "src" / "scarp")
+    if picture(ARROWS) not in page.read_text(encoding="utf-8"):
+        found.append(f"{page}:1: the picture is not that of the arrows; replace it by `tools/check_arrows.py --picture`")
     print("\n".join(found) if found else "all includes follow the arrows")
     sys.exit(1 if found else 0)
 
