@@ -370,7 +370,7 @@ double critical_time_step(const Block<Dim>& block, const Mesh<Dim>& mesh, const 
             per_size2[l] = 1 / (mesh.size_of(e) * mesh.size_of(e));
             const double stiffer = weight[slot] > 1 ? weight[slot] * per_size2[l] : per_size2[l];
             per_mass[l] = stiffer * points.volume[i] / points.mass[i];
-            if (!least_per_mass.empty()) per_mass[l] = std::max(per_mass[l], least_per_mass[slot]);
+            if (!least_per_mass.empty()) per_mass[l] = std::max(per_mass[l], least_per_mass[e]);
           }
           Batch v2(0.0);
           for (const auto& v : points.v) v2 = fma(p.load(v), p.load(v), v2);

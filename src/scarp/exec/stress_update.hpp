@@ -83,7 +83,7 @@ void trial_stresses(const Block<Dim>& block, TrialState<Dim>& trial, PointRange 
 
 /// The least 1 / (c/(k h) + |v|/h) over the points of a block, with c the compression wave speed of their present
 /// stiffness; infinite where no point has stiffness. `weight` is that of the points in the quadrature of the active
-/// element in each slot, `least_per_mass` a bound of PointIncrements::per_mass from below in it, or empty.
+/// element in each slot, `least_per_mass` a bound of PointIncrements::per_mass from below in each element, or empty.
 template <int Dim>
 double critical_time_step(const Block<Dim>& block, const Mesh<Dim>& mesh, const ActiveElements& active,
                           const Column& weight, const Column& least_per_mass, const WaveSettings& waves);

@@ -101,7 +101,8 @@ void make_room(const Body<Dim>& body, VelocityField<Dim>& field) {
   if (!body.patches.empty()) {
     buffers.patch_share.reserve(elements);
     buffers.bounds.filled.reserve(elements);
-    buffers.bounds.least_per_mass.reserve(elements);
+    buffers.bounds.due.reserve(body.mesh->element_count());
+    buffers.bounds.active.reserve(elements);
   }
   buffers.changed.reserve(body.mesh->element_count());
   buffers.is_changed.resize(body.mesh->element_count());
@@ -199,6 +200,34 @@ void locate_points(Body<Dim>& body, bool prefer_full) {
 
 namespace {
 
+/// Marks the elements whose bound by nodes is to be found at once (NodeBounds).
+template <int Dim>
+void note_changes_around(const Body<Dim>& body, VelocityField<Dim>& field) {
+  auto& bounds = field.buffers.bounds;
+  bounds.least_per_mass.resize(body.mesh->element_count(), 0.0);
+  bounds.is_due.resize(body.mesh->element_count());
+  const auto note = [&](int e) {
+    if (!bounds.is_due[e]) bounds.due.push_back(e);
+    bounds.is_due[e] = 1;
+  };
+  const auto note_all = [&](int e) {
+    note(e);
+    for (const int other : body.mesh->elements_around(e)) note(other);
+  };
+  bounds.was_active.resize(body.mesh->element_count());
+  for (const int e : bounds.active) {
+    if (field.active.slot[e] >= 0) continue;
+    bounds.was_active[e] = 0;
+    note_all(e);
+  }
+  for (const int e : field.active.element) {
+    if (bounds.was_active[e]) continue;
+    bounds.was_active[e] = 1;
+    note_all(e);
+  }
+  bounds.active = field.active.element;
+}
+
 /// What belongs to the set of active elements.
 template <int Dim>
 void rebuild(const Body<Dim>& body, VelocityField<Dim>& field) {
@@ -223,9 +252,8 @@ void rebuild(const Body<Dim>& body, VelocityField<Dim>& field) {
   if (!body.patches.empty()) {
     buffers.patch_share.assign(slots, {});
     buffers.bounds.filled.assign(slots, 0.0);
-    buffers.bounds.least_per_mass.assign(slots, 0.0);
     buffers.bounds.stiffness.resize(nodes);
-    buffers.bounds.age = buffers.bounds.every;
+    note_changes_around(body, field);
   }
   buffers.correction.resize(slots * buffers.correction_row);
   if (body.mesh->axisymmetric) buffers.hoop_correction.resize(slots * padded_row(field.assembly.row()));

@@ -31,7 +31,7 @@ transfer::ElementMotion<Basis> element_motion(const Body<Basis::dim>& body, cons
   transfer::ElementMotion<Basis> element{motion_of_nodes<Basis>(field, slot),
                                          buffers.correction.data() + slot * buffers.correction_row,
                                          buffers.weight[slot], buffers.size[slot]};
-  if constexpr (is_simplex<Basis>) element.least_per_mass = buffers.bounds.least_per_mass[slot];
+  if constexpr (is_simplex<Basis>) element.least_per_mass = buffers.bounds.least_per_mass[field.active.element[slot]];
   if constexpr (is_axisymmetric<Basis>) {
     element.hoop_correction = buffers.hoop_correction.data() + slot * padded_row(field.assembly.row());
   }

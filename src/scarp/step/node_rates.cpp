@@ -43,10 +43,10 @@ double largest_at_points(const VelocityField<Basis::dim>& field, const typename 
 }  // namespace
 
 template <int Dim>
-void bound_by_nodes(Body<Dim>& body, VelocityField<Dim>& field) {
+void bound_by_nodes(Body<Dim>& body, VelocityField<Dim>& field, Bounded which) {
   auto& momentum = field.buffers.momentum;
   auto& bounds = field.buffers.bounds;
-  bounds.age = 0;
+  if (which == Bounded::all) bounds.age = 0;
   for_each_chunk(field, [&](const exec::Chunk& chunk) {
     clear_accumulators(chunk, momentum, 1);
     for_each_element(body, field, chunk, [&]<class Basis>(Basis, int slot, int e) {
@@ -63,17 +63,32 @@ void bound_by_nodes(Body<Dim>& body, VelocityField<Dim>& field) {
   for_each_chunk(field, [&](const exec::Chunk& chunk) {
     for_each_element(body, field, chunk, [&]<class Basis>(Basis, int slot, int e) {
       if constexpr (is_simplex<Basis>) {
+        if (which == Bounded::due && !bounds.is_due[e]) return;
         const int* k = field.assembly.nodes_of(slot);
         transfer::NodeRows<Basis> rows;
         for (int i = 0; i < Basis::nodes; ++i) rows[i] = &bounds.stiffness[k[i]];
         const typename Basis::Cell cell(*body.mesh, e);
-        bounds.least_per_mass[slot] = largest_at_points<Basis>(field, cell, slot, rows);
+        bounds.least_per_mass[e] = largest_at_points<Basis>(field, cell, slot, rows);
       }
     });
   });
+  for (const int e : bounds.due) bounds.is_due[e] = 0;
+  bounds.due.clear();
 }
 
-template void bound_by_nodes<2>(Body<2>&, VelocityField<2>&);
-template void bound_by_nodes<3>(Body<3>&, VelocityField<3>&);
+template <int Dim>
+void bound_by_nodes_when_due(Body<Dim>& body, VelocityField<Dim>& field) {
+  auto& bounds = field.buffers.bounds;
+  if (++bounds.age >= bounds.every) {
+    bound_by_nodes(body, field, Bounded::all);
+  } else if (!bounds.due.empty()) {
+    bound_by_nodes(body, field, Bounded::due);
+  }
+}
+
+template void bound_by_nodes<2>(Body<2>&, VelocityField<2>&, Bounded);
+template void bound_by_nodes<3>(Body<3>&, VelocityField<3>&, Bounded);
+template void bound_by_nodes_when_due<2>(Body<2>&, VelocityField<2>&);
+template void bound_by_nodes_when_due<3>(Body<3>&, VelocityField<3>&);
 
 }  // namespace scarp::step

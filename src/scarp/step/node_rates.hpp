@@ -22,14 +22,16 @@ bool bounds_by_nodes(const Body<Dim>& body, const Scheme& scheme) {
   return scheme.bounds_by_nodes && !body.patches.empty();
 }
 
-/// One more step: is it time to find the limit anew?
-inline bool is_due(NodeBounds& bounds) {
-  return ++bounds.age >= bounds.every;
-}
+/// Elements whose limit is found.
+enum class Bounded { all, due };
 
 /// Step 6, start: the largest ½ Σ N_n G_n / m_n [1/(Mg m²) times m³] over the points of each simplex, to
 /// NodeBounds::least_per_mass. Asks for what accelerate_nodes() leaves, and leaves no other sums of the nodes.
 template <int Dim>
-void bound_by_nodes(Body<Dim>& body, VelocityField<Dim>& field);
+void bound_by_nodes(Body<Dim>& body, VelocityField<Dim>& field, Bounded which);
+
+/// One more step: the same of all elements if it is time for that, or of those that must not wait, if there are such.
+template <int Dim>
+void bound_by_nodes_when_due(Body<Dim>& body, VelocityField<Dim>& field);
 
 }  // namespace scarp::step

@@ -192,9 +192,7 @@ StepTotals<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings
     each(P::velocities, [&](Field& f) { step::find_dilations(body, f, settings); });
   }
   if (step::bounds_by_nodes(body, scheme)) {
-    each(P::velocities, [&](Field& f) {
-      if (step::is_due(f.buffers.bounds)) step::bound_by_nodes(body, f);
-    });
+    each(P::velocities, [&](Field& f) { step::bound_by_nodes_when_due(body, f); });
   }
   for (auto& f : body.fields) {
     step::strain_stress_and_motion(body, f, dt, settings);  // 4, 6 to 11, eqs 6, 9–19 and section 3
@@ -217,7 +215,7 @@ void find_bound_by_nodes(Body<Dim>& body, VelocityField<Dim>& field, const Schem
     const double m = step::gathered_sums(field, k).mass();
     field.nodes.node[k].per_mass = m < field.least_mass ? 0 : 1 / m;
   }
-  step::bound_by_nodes(body, field);
+  step::bound_by_nodes(body, field, step::Bounded::all);
 }
 
 }  // namespace

@@ -48,13 +48,19 @@ struct PatchShare {
 };
 
 /// What nodes have to say of the time step, where there are triangles or tetrahedra (node_rates.hpp). Soil moves by
-/// parts of an element between one time that this is found and the next.
+/// parts of an element between one time that this is found and the next. Elements that are new, and those around them
+/// and around emptied ones, have theirs found at once; the others do not, so that no element's depends on soil
+/// elsewhere.
 struct NodeBounds {
-  int every = 8;  ///< steps from one time to the next; at once where elements are new
+  int every = 8;  ///< steps from one time to the next, for all elements
   int age = 0;    ///< steps since the last one
-  // Of each slot:
-  Column filled;          ///< w Σ Ω_p
-  Column least_per_mass;  ///< of PointIncrements::per_mass
+  Column filled;  ///< of each slot: w Σ Ω_p
+  // Of each element of the mesh, valid for active ones:
+  Column least_per_mass;                 ///< of PointIncrements::per_mass
+  std::vector<std::uint8_t> is_due;      ///< is it to be found at once?
+  std::vector<int> due;                  ///< those of which it is
+  std::vector<int> active;               ///< elements that were active when slots were last made
+  std::vector<std::uint8_t> was_active;  ///< the same, of each element
   // Of each active node:
   Column stiffness;  ///< ½ G_n / m_n
 };
