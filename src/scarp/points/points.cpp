@@ -14,7 +14,6 @@ constexpr int empty = -1, found = -2;
 /// the active elements are what they were: those hold points, and no others do.
 template <int Dim>
 bool count_points(std::vector<Block<Dim>>& blocks, const ChunkOfElement& chunk_of, ActiveElements& active) {
-  active.fresh.clear();
   for (auto& block : blocks) {
     block.begin.assign(static_cast<std::size_t>(active.size()) + 1, 0);
     int* count = block.begin.data() + 1;
@@ -37,7 +36,7 @@ bool count_points(std::vector<Block<Dim>>& blocks, const ChunkOfElement& chunk_o
 /// Takes those out of the active elements that hold no point any more, and merges the fresh ones in.
 template <int Dim>
 void update_active(const std::vector<Block<Dim>>& blocks, ActiveElements& active) {
-  auto& [element, chunk, slot, fresh, end] = active;
+  auto& [element, chunk, slot, fresh, emptied, end] = active;
   std::size_t kept = 0;
   for (std::size_t s = 0; s < element.size(); ++s) {
     if (std::any_of(blocks.begin(), blocks.end(), [s](const auto& block) { return block.begin[s + 1] > 0; })) {
@@ -45,6 +44,7 @@ void update_active(const std::vector<Block<Dim>>& blocks, ActiveElements& active
       chunk[kept++] = chunk[s];
     } else {
       slot.set(element[s], empty);
+      emptied.push_back(element[s]);
     }
   }
   std::sort(fresh.begin(), fresh.end());
@@ -86,6 +86,7 @@ void ActiveElements::reserve(std::size_t elements) {
   element.reserve(elements);
   chunk.reserve(elements);
   fresh.reserve(elements);
+  emptied.reserve(elements);
   end.reserve(elements);
 }
 
@@ -93,6 +94,8 @@ template <int Dim>
 bool sort_by_element(std::vector<Block<Dim>>& blocks, int element_count, const ChunkOfElement& chunk_of,
                      ActiveElements& active) {
   active.slot.resize(static_cast<std::size_t>(element_count));
+  active.fresh.clear();
+  active.emptied.clear();
   const bool same = count_points(blocks, chunk_of, active);
   if (!same) {
     update_active(blocks, active);

@@ -204,9 +204,11 @@ struct ActiveElements {
   std::vector<int> element;          ///< of each slot
   std::vector<std::uint64_t> chunk;  ///< of each slot
   MostlyNone<int> slot;              ///< of each element of the mesh; -1 where it holds no point
-  // Scratch of sort_by_element():
-  std::vector<Place> fresh;  ///< elements that were not active before
-  std::vector<int> end;      ///< of each slot: where its next point goes
+  // What the last sort_by_element() changed:
+  std::vector<Place> fresh;  ///< elements that were not active before it
+  std::vector<int> emptied;  ///< elements that are not any more
+  // Its scratch:
+  std::vector<int> end;  ///< of each slot: where its next point goes
 
   int size() const { return static_cast<int>(element.size()); }
   /// Room for so many.

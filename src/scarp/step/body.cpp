@@ -102,7 +102,6 @@ void make_room(const Body<Dim>& body, VelocityField<Dim>& field) {
     buffers.patch_share.reserve(elements);
     buffers.bounds.filled.reserve(elements);
     buffers.bounds.due.reserve(body.mesh->element_count());
-    buffers.bounds.active.reserve(elements);
   }
   buffers.changed.reserve(body.mesh->element_count());
   buffers.is_changed.resize(body.mesh->element_count());
@@ -214,18 +213,8 @@ void note_changes_around(const Body<Dim>& body, VelocityField<Dim>& field) {
     note(e);
     for (const int other : body.mesh->elements_around(e)) note(other);
   };
-  bounds.was_active.resize(body.mesh->element_count());
-  for (const int e : bounds.active) {
-    if (field.active.slot[e] >= 0) continue;
-    bounds.was_active[e] = 0;
-    note_all(e);
-  }
-  for (const int e : field.active.element) {
-    if (bounds.was_active[e]) continue;
-    bounds.was_active[e] = 1;
-    note_all(e);
-  }
-  bounds.active = field.active.element;
+  for (const auto& fresh : field.active.fresh) note_all(fresh.element);
+  for (const int e : field.active.emptied) note_all(e);
 }
 
 /// What belongs to the set of active elements.

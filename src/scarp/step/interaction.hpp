@@ -4,14 +4,9 @@
 #include <type_traits>
 
 #include "scarp/base/vec.hpp"
+#include "scarp/step/forward.hpp"
 
 namespace scarp {
-
-template <int Dim>
-struct Body;
-template <int Dim>
-struct VelocityField;
-struct StepSettings;
 
 /// Between two or more fields of a body. Momentum that one of them loses the others must get. What is pushed is part of
 /// a, so that in a scheme of two terms nodes and points move with P of it, and it works on P ½ (v^t + v^{t+dt}) dt:

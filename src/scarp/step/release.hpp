@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scarp/base/vec.hpp"
+#include "scarp/step/forward.hpp"
 
 namespace scarp {
 
@@ -31,10 +32,6 @@ double work_of(const Release<Dim>& release, int n, double m, unsigned set, const
   }
   return work;
 }
-
-template <int Dim>
-struct Body;
-struct StepSettings;
 
 /// Holds back all of the present imbalance: F_grav − F_int of the components that are not fixed, less what walls take
 /// of it at rest.

@@ -10,6 +10,7 @@
 
 #include "scarp/base/vec.hpp"
 #include "scarp/boundary/conditions.hpp"
+#include "scarp/step/forward.hpp"
 
 namespace scarp {
 
@@ -121,12 +122,6 @@ struct AbsorbingSide {
   std::optional<double> thickness;                 ///< δ of the springs [m]; 0: none; not set: the soil's larger side
   std::optional<std::array<double, 2>> impedance;  ///< Z_p, Z_s [kPa s/m]; not set: that of the soil on the side
 };
-
-template <int Dim>
-struct Body;
-template <int Dim>
-struct VelocityField;
-struct StepSettings;
 
 /// C, C_soil and k of the nodes of a side that hold soil of a field, R and u zero, for the present soil: from the faces
 /// of elements on the side, lumped, times the filled part of the elements. Throws InputError where nodes do not lie on

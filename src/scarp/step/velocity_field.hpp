@@ -56,11 +56,9 @@ struct NodeBounds {
   int age = 0;    ///< steps since the last one
   Column filled;  ///< of each slot: w Σ Ω_p
   // Of each element of the mesh, valid for active ones:
-  Column least_per_mass;                 ///< of PointIncrements::per_mass
-  std::vector<std::uint8_t> is_due;      ///< is it to be found at once?
-  std::vector<int> due;                  ///< those of which it is
-  std::vector<int> active;               ///< elements that were active when slots were last made
-  std::vector<std::uint8_t> was_active;  ///< the same, of each element
+  Column least_per_mass;             ///< of PointIncrements::per_mass
+  std::vector<std::uint8_t> is_due;  ///< is it to be found at once?
+  std::vector<int> due;              ///< those of which it is
   // Of each active node:
   Column stiffness;  ///< ½ G_n / m_n
 };
