@@ -29,13 +29,14 @@ install(TARGETS ${folders} scarp_all scarp_simd EXPORT scarp
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/scarp COMPONENT development
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT scarp NAMESPACE scarp:: FILE scarp-targets.cmake DESTINATION ${package_folder} COMPONENT development)
-# The laboratory keeps two headers to itself: they are written on Eigen, which is otherwise needed to build only.
+# The laboratory keeps two headers to itself, written on Eigen, and io one, written on HDF5: both are needed to build only.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/scarp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
-  FILES_MATCHING PATTERN "*.hpp" PATTERN "lab/constrained.hpp" EXCLUDE PATTERN "lab/specimen.hpp" EXCLUDE)
+  FILES_MATCHING PATTERN "*.hpp" PATTERN "lab/constrained.hpp" EXCLUDE PATTERN "lab/specimen.hpp" EXCLUDE
+  PATTERN "io/hdf5_handle.hpp" EXCLUDE)
 
 set(config ${PROJECT_BINARY_DIR}/cmake/scarp-config)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/scarp-config.cmake.in ${config}.cmake
   INSTALL_DESTINATION ${package_folder} NO_SET_AND_CHECK_MACRO)
 # Before version 1 a new minor version may change what the headers offer.
 write_basic_package_version_file(${config}-version.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${config}.cmake ${config}-version.cmake DESTINATION ${package_folder} COMPONENT development)
+install(FILES ${config}.cmake ${config}-version.cmake ${PROJECT_SOURCE_DIR}/cmake/scarp-hdf5.cmake DESTINATION ${package_folder} COMPONENT development)

@@ -2,7 +2,7 @@
 """Checks the includes of src/scarp against the arrows of docs/architecture.md.
 
 An include of another folder must follow an arrow; OpenMP is for exec/ only, MPI and PETSc for comm/ only, toml++ for
-input/ only. The picture on that page must be that of the arrows, which `--picture` prints. Prints each breach as
+input/ only, HDF5 for io/ only. The picture on that page must be that of the arrows, which `--picture` prints. Prints each breach as
 file:line and exits with 1 where there is one; `--self-test` checks the check.
 """
 
@@ -33,6 +33,7 @@ RESERVED = [
     (re.compile(r'#\s*include\s*[<"]omp\.h[>"]|#\s*pragma\s+omp\b'), "exec"),
     (re.compile(r'#\s*include\s*[<"](mpi\.h|petsc)'), "comm"),
     (re.compile(r'#\s*include\s*[<"]toml'), "input"),
+    (re.compile(r'#\s*include\s*[<"]hdf5'), "io"),
 ]
 INCLUDE = re.compile(r'#\s*include\s*[<"]scarp/([^/">]+)/')
 SOURCES = {".hpp", ".cpp", ".h", ".inl"}

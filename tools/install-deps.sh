@@ -15,6 +15,8 @@ libfmt-dev
 libxsimd-dev
 nlohmann-json3-dev
 libeigen3-dev
+libhdf5-dev
+libxxhash-dev
 libgtest-dev
 librapidcheck-dev
 python3 python3-numpy python3-matplotlib

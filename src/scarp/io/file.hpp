@@ -1,4 +1,4 @@
-// Writing whole files so that a reader never sees half of one.
+// Writing whole files so that a reader never sees half of one, not even after power has failed.
 #pragma once
 
 #include <cstddef>
@@ -6,11 +6,13 @@
 #include <string>
 #include <string_view>
 
+#include "scarp/base/error.hpp"
+
 namespace scarp::io {
 
 /// A file that is there under its name once it is whole: written piece by piece to a temporary file beside `path`,
-/// which finish() renames. Without finish(), and where it fails, an older file at `path` stays untouched. Throws
-/// RunError with the reason.
+/// which finish() renames when all of it is on the disk. Without finish(), and where it fails, an older file at `path`
+/// stays untouched. Throws RunError with the reason.
 class WholeFile {
  public:
   explicit WholeFile(const std::string& path);
@@ -31,5 +33,17 @@ class WholeFile {
 
 /// Writes `content` as a WholeFile.
 void write_whole(const std::string& path, std::string_view content);
+
+/// The whole content of a file. Throws InputError where it cannot be read.
+std::string read_whole(const std::string& path);
+
+/// Where a file could not be written, with the reason and what to do.
+class WriteError : public RunError {
+ public:
+  WriteError(const std::string& path, int reason);
+};
+
+/// The names in a folder are on the disk after this, as well as the system can tell.
+void sync_folder(const std::string& folder);
 
 }  // namespace scarp::io
