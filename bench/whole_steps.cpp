@@ -14,6 +14,7 @@
 #include "scarp/io/vtu.hpp"
 #include "scarp/run/build.hpp"
 #include "scarp/run/fields.hpp"
+#include "scarp/run/runner.hpp"
 #include "scarp/run/stage.hpp"
 #include "soil.hpp"
 
@@ -91,15 +92,13 @@ class SlopeCut {
   SlopeCut()
       : input_(without_output(input::read_case(SCARP_SOURCE_DIR "/examples/slope_cut/slope_cut.toml"))),
         body_(run::build_body(input_)),
-        results_(input_, folder_.path(), body_),
+        state_(std::make_unique<State>(run::new_state(body_))),
+        results_(input_, folder_.path(), body_, run::Before::nothing, input_.path),
         progress_(true) {
-    record_motion(body_, ledger_.last);
-    ledger_.initial_mass = ledger_.last.mass;
-    run::StageRecord record;
-    run_stage(0, false, record);
+    run_stage(false);
     at_rest_ = body_.fields[0].blocks;
     conditions_ = body_.conditions;
-    ledger_at_rest_ = ledger_;
+    state_at_rest_ = std::make_unique<State>(*state_);
   }
 
   const Body<2>& body() const { return body_; }
@@ -108,21 +107,20 @@ class SlopeCut {
     body_.fields[0].blocks = at_rest_;
     body_.conditions = conditions_;  // the cut before this one has let the sides go
     body_.fields[0].outside.sides = {};
-    ledger_ = ledger_at_rest_;
+    state_ = std::make_unique<State>(*state_at_rest_);
     reorder(body_);
     body_.fields[0].out_of_place = 0;
-    const auto before = ledger_;
-    run::StageRecord record;
     const Timer timer;
-    run_stage(1, profile, record);
+    run_stage(profile);
     Repetition result;
     timer.read(result);
-    result.steps = record.steps;
-    result.point_steps = ledger_.point_steps - before.point_steps;
-    result.substeps = ledger_.substeps - before.substeps;
+    const auto &before = state_at_rest_->ledger, &ledger = state_->ledger;
+    result.steps = state_->stages.back().steps;
+    result.point_steps = ledger.point_steps - before.point_steps;
+    result.substeps = ledger.substeps - before.substeps;
     result.changed_element =
-        ledger_.search.searches() - ledger_.search.own - before.search.searches() + before.search.own;
-    for (int i = 0; i < phases; ++i) result.phase_seconds[i] = ledger_.seconds[i] - before.seconds[i];
+        ledger.search.searches() - ledger.search.own - before.search.searches() + before.search.own;
+    for (int i = 0; i < phases; ++i) result.phase_seconds[i] = ledger.seconds[i] - before.seconds[i];
     return result;
   }
 
@@ -133,17 +131,19 @@ class SlopeCut {
     return input;
   }
 
-  void run_stage(int index, bool profile, run::StageRecord& record) {
+  /// The next one.
+  void run_stage(bool profile) {
     const std::function<bool()> interrupted = [] { return false; };
-    run::EnergyCheck energy(ledger_, std::numeric_limits<double>::infinity());
-    run::Context<2> context{input_, body_, ledger_, results_, progress_, energy, interrupted, profile};
-    run::run_stage(context, index, record);
+    const std::function<void()> keep = [] {};
+    run::Context<2> context{input_, body_, *state_, results_, progress_, interrupted, keep, profile};
+    run::run_stage(context);
   }
 
+  using State = run::RunState<2>;
   TemporaryFolder folder_;
   input::Case input_;
   Body<2> body_;
-  run::Ledger<2> ledger_, ledger_at_rest_;
+  std::unique_ptr<State> state_, state_at_rest_;
   run::Results<2> results_;
   run::Progress progress_;
   std::vector<Block<2>> at_rest_;

@@ -24,7 +24,7 @@ constexpr int bad_input = 2, failed = 3, interrupted = 130;
 struct Arguments {
   std::string case_file, model;
   std::vector<std::string> overrides;
-  std::string curve, picture;
+  std::string curve, picture, folder;
   scarp::run::Options options;
 };
 
@@ -33,6 +33,15 @@ int run(const Arguments& arguments) {
   auto options = arguments.options;
   if (options.out.empty()) options.out = std::filesystem::path(arguments.case_file).stem().string() + ".out";
   const auto outcome = scarp::run::run_case(input, options);
+  if (!options.quiet) fmt::print("results in {}\n", options.out);
+  return outcome == scarp::run::Outcome::interrupted ? interrupted : 0;
+}
+
+int resume(const Arguments& arguments) {
+  auto options = arguments.options;
+  options.out = arguments.folder;
+  while (options.out.size() > 1 && options.out.ends_with('/')) options.out.pop_back();
+  const auto outcome = scarp::run::resume_case(options);
   if (!options.quiet) fmt::print("results in {}\n", options.out);
   return outcome == scarp::run::Outcome::interrupted ? interrupted : 0;
 }
@@ -56,10 +65,17 @@ int parse_and_call(int argc, char** argv) {
   auto* run_command = app.add_subcommand("run", "Run a case");
   run_command->add_option("CASE", arguments.case_file, "case file (TOML)")->required();
   run_command->add_option("--out", arguments.options.out, "folder of the results (CASE without .toml, with .out)");
-  run_command->add_option("--threads", arguments.options.threads, "number of threads (all that the system gives)")
-      ->check(CLI::Range(1, 1024));
-  run_command->add_flag("--profile", arguments.options.profile, "print at the end how the time of the steps was spent");
-  run_command->add_flag("--quiet", arguments.options.quiet, "no progress");
+  run_command->add_flag("--overwrite", arguments.options.overwrite,
+                        "replace the results of an earlier run in the folder");
+  auto* resume_command = app.add_subcommand("resume", "Go on with a run that was stopped, from its latest checkpoint");
+  resume_command->add_option("DIR", arguments.folder, "folder of its results")->required();
+  resume_command->add_flag("--edited", arguments.options.edited, "take checkpoints that other programs have changed");
+  for (auto* command : {run_command, resume_command}) {
+    command->add_option("--threads", arguments.options.threads, "number of threads (all that the system gives)")
+        ->check(CLI::Range(1, 1024));
+    command->add_flag("--profile", arguments.options.profile, "print at the end how the time of the steps was spent");
+    command->add_flag("--quiet", arguments.options.quiet, "no progress");
+  }
   auto* check_command = app.add_subcommand("check", "Read a case, build mesh and points, and describe them");
   check_command->add_option("CASE", arguments.case_file, "case file (TOML)")->required();
   auto* lab_command = app.add_subcommand("lab", "Run a laboratory test on one stress point");
@@ -82,7 +98,9 @@ int parse_and_call(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : bad_input;
   }
+  for (int i = 0; i < argc; ++i) arguments.options.command += (i > 0 ? " " : "") + std::string(argv[i]);
   if (run_command->parsed()) return run(arguments);
+  if (resume_command->parsed()) return resume(arguments);
   if (check_command->parsed()) return check(arguments);
   if (lab_command->parsed()) return lab(arguments);
   if (models_command->parsed()) {

@@ -106,7 +106,7 @@ class Terminal(ProgramTest):
         self.write("seen.toml", text)
         ours, theirs = pty.openpty()
         fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
-        run = subprocess.Popen([cases.PROGRAM, "run", "seen.toml", "--out", "r", "--threads", "1"], cwd=self.folder,
+        run = subprocess.Popen([cases.PROGRAM, "run", "seen.toml", "--out", "r", "--overwrite", "--threads", "1"], cwd=self.folder,
                                stdout=subprocess.DEVNULL, stderr=theirs)
         os.close(theirs)
         printed = b""

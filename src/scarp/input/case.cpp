@@ -197,9 +197,40 @@ MethodInput read_method(const Node& node) {
   return method;
 }
 
+namespace {
+
+CheckpointInput read_checkpoint(const Node& node) {
+  Table table(node, "checkpoint");
+  CheckpointInput checkpoint;
+  checkpoint.every = table.number_or("every", not_negative, checkpoint.every);
+  checkpoint.steps = table.whole_or("steps", 0, 1000000000, 0);
+  checkpoint.time = table.number_or("time", not_negative, 0);
+  checkpoint.keep = table.whole_or("keep", 1, 1000000, checkpoint.keep);
+  checkpoint.stages = table.truth_or("stages", checkpoint.stages);
+  table.finish();
+  return checkpoint;
+}
+
+StartInput read_start(const Node& node, const std::string& case_path) {
+  Table table(node, "[start]");
+  StartInput start;
+  start.position = node.position;
+  start.from = resolved(table.text("from", "name the folder of the results of another run"), case_path);
+  if (const Node* stage = table.find("stage")) {
+    start.stage = text_in(*stage, "stage");
+    start.stage_position = stage->position;
+  }
+  start.edited = table.truth_or("edited", false);
+  table.finish();
+  return start;
+}
+
+}  // namespace
+
 OutputInput read_output(const Node& node) {
   Table table(node, "[output]");
   OutputInput output;
+  if (const Node* checkpoint = table.find("checkpoint")) output.checkpoint = read_checkpoint(*checkpoint);
   output.every = table.number_or("every", not_negative, output.every);
   output.history = table.number_or("history", not_negative, output.history);
   output.colour = table.text_or("colour", output.colour);
@@ -265,6 +296,7 @@ CaseOf<Dim> read_tables(Table& table, const std::string& path) {
   if (const Node* method = table.find("method")) result.method = read_method(*method);
   check_shape(result);
   if (const Node* output = table.find("output")) result.output = read_output(*output);
+  if (const Node* start = table.find("start")) result.start = read_start(*start, path);
   result.materials = read_all<MaterialInput>(table, "material", "the soil",
                                              [&](const Node& node) { return read_material(node, path); });
   result.regions = read_all<RegionInputOf<Dim>>(table, "region", "where the soil is", [&](const Node& node) {
@@ -294,9 +326,10 @@ std::string text_of_run(const Node& document, const std::string& path, const std
 
 }  // namespace
 
-AnyCase read_any_case(const std::string& path, const std::vector<std::string>& overrides) {
+namespace {
+
+AnyCase read_document(const std::string& file, const std::string& path, const std::vector<std::string>& overrides) {
   logging::forget_warnings();  // of an earlier case
-  const std::string file = read_text(path);
   Node document = parse_text(file, path);
   for (const auto& text : overrides) apply_override(document, text);
   document.position = {path, 0, 0};
@@ -308,6 +341,16 @@ AnyCase read_any_case(const std::string& path, const std::vector<std::string>& o
   };
   if (table.whole_or("dimension", 2, 3, 2) == 2) return read(std::integral_constant<int, 2>{});
   return read(std::integral_constant<int, 3>{});
+}
+
+}  // namespace
+
+AnyCase read_any_case(const std::string& path, const std::vector<std::string>& overrides) {
+  return read_document(read_text(path), path, overrides);
+}
+
+AnyCase read_case_text(const std::string& text, const std::string& path) {
+  return read_document(text, path, {});
 }
 
 Case read_case(const std::string& path, const std::vector<std::string>& overrides) {

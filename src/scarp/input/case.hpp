@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -142,11 +143,29 @@ struct MethodInput {
   double largest_energy_error = 0.2;  ///< of the energies of the run, before it stops (run/energy_check.hpp); 0: any
 };
 
+/// [output] checkpoint: when the state of the run is kept besides at the ends of stages; 0: never for this reason.
+struct CheckpointInput {
+  double every = 600;      ///< [s] of wall clock
+  std::int64_t steps = 0;  ///< after so many
+  double time = 0;         ///< [s] of the soil's time
+  int keep = 2;            ///< so many of these, the latest
+  bool stages = true;      ///< at the end of each stage, too, where they are all kept
+};
+
+/// [start]: another run's state in place of the regions' initial one.
+struct StartInput {
+  std::string from;                  ///< folder of its results, or a checkpoint (resolved from the case file)
+  std::optional<std::string> stage;  ///< the end of this stage; not set: the latest checkpoint
+  bool edited = false;               ///< a checkpoint may have been changed by other programs
+  Position position, stage_position;
+};
+
 /// [output]
 struct OutputInput {
   double every = 0;                     ///< time between frames [s]; 0: only at the start and end of each stage
   double history = 0;                   ///< time between rows of history.csv [s]; 0: every step
   std::string colour = "displacement";  ///< field that `scarp plot` shows unless told otherwise
+  CheckpointInput checkpoint;
 };
 
 template <int Dim>
@@ -164,6 +183,7 @@ struct CaseOf {
   std::vector<StageInputOf<Dim>> stages;
   MethodInput method;
   OutputInput output;
+  std::optional<StartInput> start;
 
   /// A vector of this length along −y in two dimensions, −z in three.
   static constexpr Vec<Dim> down(double length) {
@@ -179,6 +199,13 @@ using AnyCase = std::variant<CaseOf<2>, CaseOf<3>>;
 /// into the file, items of arrays of tables by their name or their number from 0 ("stage.cut.duration=4",
 /// "material.clay.c_b=10"). Throws InputError with file, line and column for the first thing wrong.
 AnyCase read_any_case(const std::string& path, const std::vector<std::string>& overrides = {});
+
+/// The same of a text that stands for the file at `path`.
+AnyCase read_case_text(const std::string& text, const std::string& path);
+
+/// The files that the text of a case names, besides the results that it starts from; names in it lead there from the
+/// case's own folder, `path` being that of the case.
+std::vector<std::string> files_of_case(const std::string& text, const std::string& path);
 
 /// The same where only two dimensions will do; throws InputError for a case in three.
 Case read_case(const std::string& path, const std::vector<std::string>& overrides = {});

@@ -114,10 +114,14 @@ void refuse_keys(const Table& table, const std::vector<std::string>& keys, const
   }
 }
 
+std::string resolved(const std::string& name, const std::string& case_path) {
+  const std::filesystem::path path = name;
+  return (path.is_absolute() ? path : std::filesystem::path(case_path).parent_path() / path).string();
+}
+
 std::string read_file_name(const Node& node, const std::string& key, const std::string& kind,
                            const std::string& case_path) {
-  const std::filesystem::path name = text_in(node, key);
-  const auto file = (name.is_absolute() ? name : std::filesystem::path(case_path).parent_path() / name).string();
+  const auto file = resolved(text_in(node, key), case_path);
   std::error_code none;  // a name that no file can have is a file that is not there
   if (std::filesystem::exists(file, none)) return file;
   throw InputError(fmt::format("{} file is not there", kind), file, "names are relative to the case file's folder",

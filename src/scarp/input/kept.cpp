@@ -16,19 +16,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Calls f with each relative name of a file in the tree.
+/// Calls f(node, whether it is one of results) with each name of a file or folder in the tree. `table` is the key under
+/// which a node stands.
 template <class F>
-void for_each_file_name(Node& node, F&& f) {
+void for_each_file_name(Node& node, const std::string& table, F&& f) {
   if (auto* list = std::get_if<List>(&node.value)) {
-    for (auto& item : *list) for_each_file_name(item, f);
+    for (auto& item : *list) for_each_file_name(item, "", f);
   }
   auto* keys = std::get_if<Keys>(&node.value);
   if (!keys) return;
   for (auto& [key, item] : *keys) {
+    const bool is_start = table == "start" && key == "from";
     const bool names_file = std::find(keys_of_files.begin(), keys_of_files.end(), key) != keys_of_files.end();
-    const auto* name = std::get_if<std::string>(&item.value);
-    if (names_file && name && fs::path(*name).is_relative()) f(item);
-    for_each_file_name(item, f);
+    if ((names_file || is_start) && std::holds_alternative<std::string>(item.value)) f(item, is_start);
+    for_each_file_name(item, key, f);
   }
 }
 
@@ -73,8 +74,9 @@ std::string kept_text(const std::string& text, const std::string& case_path, con
   };
   std::vector<Change> changes;
   bool in_place = true, any = false;
-  for_each_file_name(document, [&](Node& node) {
+  for_each_file_name(document, "", [&](Node& node, bool) {
     auto& name = std::get<std::string>(node.value);
+    if (fs::path(name).is_absolute()) return;
     const fs::path file = (from / name).lexically_normal();
     const auto place = quoted_value(text, node);
     name = (is_within(to, from) ? file.lexically_relative(to) : file).string();
@@ -88,6 +90,17 @@ std::string kept_text(const std::string& text, const std::string& case_path, con
   std::string kept = text;
   for (const auto& [place, name] : changes) kept.replace(place.begin, place.size, '"' + name + '"');
   return kept;
+}
+
+std::vector<std::string> files_of_case(const std::string& text, const std::string& path) {
+  Node document = parse_text(text, path);
+  std::vector<std::string> files;
+  for_each_file_name(document, "", [&](Node& node, bool is_start) {
+    if (!is_start) files.push_back(resolved(std::get<std::string>(node.value), path));
+  });
+  std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
+  return files;
 }
 
 }  // namespace scarp::input

@@ -41,6 +41,9 @@ Place<Dim> read_place(Table& table, const std::string& name, const std::string& 
 /// Two opposite corners [x, y, z], in any order.
 BoxOf<3> read_box(const Node& node);
 
+/// A name in a case, from where the program runs.
+std::string resolved(const std::string& name, const std::string& case_path);
+
 /// A file that the case names; an error where it is not there. `kind` is how messages call it, such as "the mesh".
 std::string read_file_name(const Node& node, const std::string& key, const std::string& kind,
                            const std::string& case_path);

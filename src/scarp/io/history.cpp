@@ -2,16 +2,35 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 #include <cerrno>
-#include <cstring>
 
-#include "scarp/base/error.hpp"
+#include "scarp/io/file.hpp"
 
 namespace scarp::io {
 
 HistoryWriter::HistoryWriter(const std::string& path, std::span<const std::string> columns)
     : path_(path), columns_(columns.size()), file_(std::fopen(path.c_str(), "w"), &std::fclose) {
+  write_at_once();
   write(fmt::format("{}\n", fmt::join(columns, ",")));
+}
+
+HistoryWriter::HistoryWriter(const std::string& path, std::span<const std::string> columns, std::int64_t bytes)
+    : path_(path), columns_(columns.size()), bytes_(bytes), file_(std::fopen(path.c_str(), "r+"), &std::fclose) {
+  const std::string header = fmt::format("{}\n", fmt::join(columns, ","));
+  std::string there(header.size(), '\0');
+  const bool same = file_ && std::fread(there.data(), 1, there.size(), file_.get()) == there.size() && there == header;
+  if (!same || std::fseek(file_.get(), 0, SEEK_END) != 0 || std::ftell(file_.get()) < bytes) {
+    throw InputError("the table of a run that is to go on is not what it was", path,
+                     "bring back the history.csv that belongs to the checkpoint");
+  }
+  if (ftruncate(fileno(file_.get()), bytes) != 0 || std::fseek(file_.get(), static_cast<long>(bytes), SEEK_SET) != 0)
+    throw WriteError(path_, errno);
+  write_at_once();
+}
+
+void HistoryWriter::write_at_once() {
+  if (file_) std::setvbuf(file_.get(), nullptr, _IONBF, 0);
 }
 
 void HistoryWriter::row(std::span<const double> values) {
@@ -22,11 +41,20 @@ void HistoryWriter::row(std::span<const double> values) {
   write(fmt::format("{}\n", fmt::join(values, ",")));
 }
 
+void HistoryWriter::sync() const {
+  fsync(fileno(file_.get()));
+}
+
 void HistoryWriter::write(const std::string& line) {
-  if (file_ && std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size() && std::fflush(file_.get()) == 0)
-    return;
-  throw RunError(fmt::format("the file {} cannot be written", path_), std::strerror(errno),
-                 "check that the folder exists, that you may write there and that the disk has room");
+  errno = 0;
+  if (!file_ || std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size()) {
+    const int reason = errno;
+    // Whole rows only, also on a full disk.
+    if (file_ && ftruncate(fileno(file_.get()), bytes_) == 0)
+      std::fseek(file_.get(), static_cast<long>(bytes_), SEEK_SET);
+    throw WriteError(path_, reason);
+  }
+  bytes_ += static_cast<std::int64_t>(line.size());
 }
 
 }  // namespace scarp::io

@@ -6,8 +6,7 @@
 
 namespace scarp::io {
 
-void PvdWriter::add(double time, const std::string& file) {
-  frames_.emplace_back(time, file);
+void PvdWriter::write() const {
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
       "byte_order=\"LittleEndian\">\n<Collection>\n";

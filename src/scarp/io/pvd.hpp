@@ -13,8 +13,10 @@ class PvdWriter {
  public:
   explicit PvdWriter(std::string path) : path_(std::move(path)) {}
 
-  /// Adds a frame; `file` is relative to the collection. Throws RunError where writing fails.
-  void add(double time, const std::string& file);
+  /// Adds a frame; `file` is relative to the collection.
+  void add(double time, const std::string& file) { frames_.emplace_back(time, file); }
+  /// Writes the collection. Throws RunError where that fails.
+  void write() const;
 
  private:
   std::string path_;

@@ -35,6 +35,18 @@ struct SearchCounts {
     return *this;
   }
 
+  /// f({key, unit, meaning}, member) for each (run/archive.hpp).
+  template <class Entry, class Self, class F>
+  static void each_saved(Self& s, F&& f) {
+    f(Entry{"own", "", "points found in the element they were in"}, s.own);
+    f(Entry{"surrounding", "", "points found in an element around that one"}, s.surrounding);
+    f(Entry{"walked", "", "points found by walking on"}, s.walked);
+    f(Entry{"searched_all", "", "points found by searching all elements"}, s.searched_all);
+    f(Entry{"lost", "", "points in no element"}, s.lost);
+    f(Entry{"elements_examined", "", "by all searches"}, s.elements_examined);
+    f(Entry{"most_examined", "", "by a single search"}, s.most_examined);
+  }
+
   /// Counts one search that ended as `how` (a member above) after `steps` elements.
   void add(std::int64_t SearchCounts::*how, int steps) {
     ++(this->*how);

@@ -162,9 +162,9 @@ void for_each_in(const std::array<Array, n>& group, F&& f) {
 }  // namespace detail
 
 /// f(column) for each array of a block that has one entry per point (not order, begin and spare).
-template <int Dim, class F>
-void for_each_column(Block<Dim>& b, F&& f) {
-  Points<Dim>::each(b.points, [&](const PointArray& info, auto& member) {
+template <class AnyBlock, class F>
+void for_each_column(AnyBlock& b, F&& f) {
+  std::decay_t<decltype(b.points)>::each(b.points, [&](const PointArray& info, auto& member) {
     detail::for_each_in(member, [&](auto& column) {
       if (!info.optional || !column.empty()) f(column);
     });

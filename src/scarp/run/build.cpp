@@ -97,25 +97,23 @@ void for_each_absorbing(const Mesh<Dim>& mesh, const input::CaseOf<Dim>& input, 
   }
 }
 
-/// The points of a region where they start, without their state.
+/// Puts the points of a region into its block where they start, without their state.
 template <int Dim>
-Block<Dim> make_block(const input::RegionInputOf<Dim>& region, const input::MaterialInput& material,
-                      const FillingOf<Dim>& filling, bool axisymmetric, int first_id) {
-  Block<Dim> block(region.name, material.model, material.length);
+void put_points(Block<Dim>& block, const input::RegionInputOf<Dim>& region, double density,
+                const FillingOf<Dim>& filling, bool axisymmetric, int first_id) {
   resize(block, static_cast<int>(filling.position.size()));
   auto& points = block.points;
   for (int i = 0; i < block.size(); ++i) {
     // An area times its centroid's distance from the axis is its volume per radian exactly (Pappus).
     const double volume = filling.volume[i] * (axisymmetric ? filling.position[i][0] : 1.0);
     points.volume[i] = points.initial_volume[i] = volume;
-    points.mass[i] = material.density * volume;
+    points.mass[i] = density * volume;
     points.id[i] = first_id + i;
     for (int j = 0; j < Dim; ++j) {
       points.x[j][i] = filling.position[i][j];
       points.v[j][i] = region.velocity[j];
     }
   }
-  return block;
 }
 
 /// Regions that reach into each other by less than this share of the finer spacing are taken for drawn by hand.
@@ -154,11 +152,33 @@ void check_overlap(const std::vector<input::RegionInputOf<Dim>>& regions, const 
 }  // namespace
 
 template <int Dim>
-Body<Dim> build_body(const input::CaseOf<Dim>& input) {
+Body<Dim> build_ground(const input::CaseOf<Dim>& input) {
   check_memory(input);
   Body<Dim> body(make_mesh(input), input.gravity);
+  for (const auto& region : input.regions) {
+    const auto& material = input.materials[region.material];
+    body.fields[0].blocks.emplace_back(region.name, material.model, material.length);
+  }
+  for (const auto& boundary : input.boundaries) check_boundary(*body.mesh, boundary);
+  body.conditions = make_conditions(*body.mesh, input, [](const auto&) { return true; });
+  return body;
+}
+
+template <int Dim>
+void check_soil(const input::CaseOf<Dim>& input, const Body<Dim>& body) {
+  refuse_short_lengths(input, body);
+  // What is wrong with a side that will absorb is said now.
+  for_each_absorbing(*body.mesh, input, [&](const auto& side, const auto&) {
+    for (const auto& field : body.fields) soil_beyond(body, field, side);
+  });
+}
+
+namespace {
+
+/// Where the points of all regions are.
+template <int Dim>
+std::vector<FillingOf<Dim>> fill_regions(const input::CaseOf<Dim>& input) {
   std::vector<FillingOf<Dim>> fillings;
-  std::vector<typename OverburdenOf<Dim>::Layer> layers;
   for (const auto& region : input.regions) {
     const double count = expected_points(region);
     if (!(count < 2e8)) {
@@ -166,21 +186,27 @@ Body<Dim> build_body(const input::CaseOf<Dim>& input) {
                        fmt::format("about {:.3g}", count), "enlarge its spacing", region.position);
     }
     fillings.push_back(fill(region.shape(), region.spacing));
-    layers.push_back({region.shape(), input.materials[region.material].density});
   }
   check_overlap<Dim>(input.regions, fillings);
+  return fillings;
+}
+
+}  // namespace
+
+template <int Dim>
+Body<Dim> build_body(const input::CaseOf<Dim>& input) {
+  Body<Dim> body = build_ground(input);
+  const auto fillings = fill_regions(input);
+  std::vector<typename OverburdenOf<Dim>::Layer> layers;
+  for (const auto& region : input.regions) layers.push_back({region.shape(), input.materials[region.material].density});
+  const OverburdenOf<Dim> overburden(layers, std::abs(input.gravity[Dim - 1]));
   int first_id = 0;
   for (std::size_t r = 0; r < input.regions.size(); ++r) {
     const auto& region = input.regions[r];
-    body.fields[0].blocks.push_back(
-        make_block(region, input.materials[region.material], fillings[r], input.axisymmetric, first_id));
-    first_id += body.fields[0].blocks.back().size();
-  }
-  for (const auto& boundary : input.boundaries) check_boundary(*body.mesh, boundary);
-  body.conditions = make_conditions(*body.mesh, input, [](const auto&) { return true; });
-  const OverburdenOf<Dim> overburden(layers, std::abs(input.gravity[Dim - 1]));
-  for (std::size_t r = 0; r < input.regions.size(); ++r) {
-    set_initial_state(body.blocks()[r], input.regions[r], overburden);
+    auto& block = body.blocks()[r];
+    put_points(block, region, input.materials[region.material].density, fillings[r], input.axisymmetric, first_id);
+    first_id += block.size();
+    set_initial_state(block, region, overburden);
   }
   try {
     locate_points(body, input.method.scheme != input::SchemeName::report);
@@ -191,11 +217,7 @@ Body<Dim> build_body(const input::CaseOf<Dim>& input) {
     }
     throw;
   }
-  refuse_short_lengths(input, body);
-  // What is wrong with a side that will absorb is said now.
-  for_each_absorbing(*body.mesh, input, [&](const auto& side, const auto&) {
-    for (const auto& field : body.fields) soil_beyond(body, field, side);
-  });
+  check_soil(input, body);
   return body;
 }
 
@@ -216,6 +238,10 @@ void open_sides(Body<Dim>& body, const input::CaseOf<Dim>& input, const StepSett
   });
 }
 
+template Body<2> build_ground<2>(const input::CaseOf<2>&);
+template Body<3> build_ground<3>(const input::CaseOf<3>&);
+template void check_soil<2>(const input::CaseOf<2>&, const Body<2>&);
+template void check_soil<3>(const input::CaseOf<3>&, const Body<3>&);
 template Body<2> build_body<2>(const input::CaseOf<2>&);
 template Body<3> build_body<3>(const input::CaseOf<3>&);
 template void open_sides<2>(Body<2>&, const input::CaseOf<2>&, const StepSettings&, int);

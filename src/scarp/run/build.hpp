@@ -12,6 +12,15 @@ namespace scarp::run {
 template <int Dim>
 Body<Dim> build_body(const input::CaseOf<Dim>& input);
 
+/// The same without points: the mesh, its conditions, and a block for each region.
+template <int Dim>
+Body<Dim> build_ground(const input::CaseOf<Dim>& input);
+
+/// Throws InputError for what only shows when the soil is there: internal lengths below what its elements can carry,
+/// and sides that cannot absorb.
+template <int Dim>
+void check_soil(const input::CaseOf<Dim>& input, const Body<Dim>& body);
+
 /// Lets the sides go that absorb from stage number `stage` on. Throws InputError as build_body() does for them.
 template <int Dim>
 void open_sides(Body<Dim>& body, const input::CaseOf<Dim>& input, const StepSettings& settings, int stage);

@@ -35,6 +35,21 @@ class EnergyCheck {
 
   static constexpr double worth_a_warning = 0.01;
 
+  /// f(Entry, member) for each that a checkpoint keeps (archive.hpp).
+  template <class Self, class F>
+  static void each_saved(Self& c, F&& f) {
+    f(Entry{"quiet_energy", "kJ", "errors are not compared with less"}, c.quiet_energy_);
+    f(Entry{"start_error", "kJ", "error of the ledger where the count starts"}, c.start_error_);
+    f(Entry{"start_work", "kJ", "work of gravity there"}, c.start_work_);
+    f(Entry{"last_error", "kJ", "error of the ledger after the last step"}, c.last_error_);
+    f(Entry{"last_kinetic", "kJ", "kinetic energy after the last step, with what was removed"}, c.last_kinetic_);
+    f(Entry{"scale", "kJ", "largest energy since the count starts"}, c.scale_);
+    f(Entry{"steps", "", "since the count starts"}, c.steps_);
+    f(Entry{"ratio", "", "error over that energy, now"}, c.ratio_);
+    f(Entry{"largest_ratio", "", "the largest in the run"}, c.largest_ratio_);
+    f(Entry{"largest_at", "s", "its time"}, c.largest_at_);
+  }
+
  private:
   double quiet_energy_;
   double start_error_ = 0, start_work_ = 0;   ///< of the ledger where the count starts

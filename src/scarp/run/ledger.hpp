@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "scarp/run/archive.hpp"
 #include "scarp/step/step.hpp"
 
 namespace scarp::run {
@@ -20,6 +21,24 @@ struct Ledger : Energies {
   double initial_kinetic_energy = 0, removed_kinetic_energy = 0;
   std::array<double, phases> seconds{};  ///< of each Phase; only where asked for
   std::int64_t removed_points = 0, failures = 0, corrected = 0, substeps = 0;
+
+  /// f(Entry, member) for each that a checkpoint keeps, besides the last step's and the searches' (archive.hpp).
+  template <class Self, class F>
+  static void each_saved(Self& l, F&& f) {
+    f(Entry{"time", "s", "since the start of the run"}, l.time);
+    f(Entry{"dt", "s", "last time step"}, l.dt);
+    f(Entry{"steps", "", "since the start of the run"}, l.steps);
+    f(Entry{"point_steps", "", "sum over the steps of the number of points"}, l.point_steps);
+    for (const auto& term : energy_terms) f(Entry{term.key, "kJ", term.meaning}, l.*term.sum);
+    f(Entry{"initial_mass", "Mg", "at the start of the run"}, l.initial_mass);
+    f(Entry{"removed_mass", "Mg", "of removed points"}, l.removed_mass);
+    f(Entry{"initial_kinetic_energy", "kJ", "at the start of the run"}, l.initial_kinetic_energy);
+    f(Entry{"removed_kinetic_energy", "kJ", "of removed points, and taken by zero_velocity"}, l.removed_kinetic_energy);
+    f(Entry{"removed_points", "", "cut away or gone from the mesh"}, l.removed_points);
+    f(Entry{"failures", "", "failed stress updates"}, l.failures);
+    f(Entry{"corrected", "", "stresses pulled back"}, l.corrected);
+    f(Entry{"substeps", "", "of all stress updates"}, l.substeps);
+  }
 
   /// Books one step over `points` points.
   void add(double step, int points, const StepTotals<Dim>& totals);

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <cstdio>
 
+#include "scarp/base/log.hpp"
+
 namespace scarp::run {
 namespace {
 
@@ -37,12 +39,12 @@ void Progress::stage(const std::string& name, int index, int count, double lates
   clear();
   latest_end_ = latest_end;
   stage_ = fmt::format("stage {}/{} {}", index + 1, count, name);
-  if (!quiet_ && !terminal_) fmt::print(stderr, "scarp: {}\n", stage_);
+  quiet_ || terminal_ ? logging::note(stage_) : logging::line(stage_);
 }
 
 void Progress::stage_ended(const std::string& text) {
   clear();
-  if (!quiet_) fmt::print(stderr, "scarp: {}: {}\n", stage_, text);
+  quiet_ ? logging::note(stage_ + ": " + text) : logging::line(stage_ + ": " + text);
 }
 
 void Progress::show(double time, std::int64_t point_steps, double unbalanced, double velocity) {

@@ -16,6 +16,13 @@ class Removal {
   bool finished() const { return done_ == input_.lifts; }
   /// When the next lift is due.
   double next_time() const;
+  /// f(Entry, member) for each that a checkpoint keeps (archive.hpp).
+  template <class Self, class F>
+  static void each_saved(Self& r, F&& f) {
+    f(Entry{"start", "s", "time at which the stage began"}, r.start_);
+    f(Entry{"done", "", "lifts that have been taken away"}, r.done_);
+  }
+
   /// Takes out the points of all lifts that are due at `time`; mass and kinetic energy go to the ledger. Throws
   /// RunError when no point is left in the body.
   void take_due(double time, Body<Dim>& body, Ledger<Dim>& ledger);

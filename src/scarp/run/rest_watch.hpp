@@ -33,6 +33,19 @@ class RestWatch {
   /// were.
   double rate() const { return rate_; }
 
+  /// f(Entry, member) for each that a checkpoint keeps (archive.hpp).
+  template <class Self, class F>
+  static void each_saved(Self& w, F&& f) {
+    f(Entry{"energy", "kJ", "of the body's weight over its height, at the start of the stage"}, w.energy_);
+    f(Entry{"height", "m", "of the body, at the start of the stage"}, w.height_);
+    f(Entry{"window", "s", "how long it must be calm"}, w.window_);
+    f(Entry{"watching", "", "1 where forces and energy were small in the last step"}, w.watching_);
+    f(Entry{"calm_for", "s", "how long they have been"}, w.calm_for_);
+    f(Entry{"moved_for", "s", "how long ago points were at `place`"}, w.moved_for_);
+    f(Entry{"rate", "1/s", "last rate of displacement found, in heights of the body"}, w.rate_);
+    f(Entry{"place", "m", "where the points were, by their ids"}, w.place_);
+  }
+
  private:
   void remember(const Body<Dim>& body);
   double largest_path(const Body<Dim>& body) const;

@@ -1,140 +1,90 @@
 #include "scarp/run/run.hpp"
 
 #include <fmt/format.h>
-#include <atomic>
-#include <chrono>
 #include <cmath>
-#include <csignal>
-#include <functional>
-#include <numeric>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "scarp/base/error.hpp"
 #include "scarp/base/log.hpp"
 #include "scarp/exec/parallel.hpp"
 #include "scarp/run/advice.hpp"
+#include "scarp/run/body_state.hpp"
 #include "scarp/run/boundary_nodes.hpp"
 #include "scarp/run/build.hpp"
 #include "scarp/run/lengths.hpp"
-#include "scarp/run/rest_watch.hpp"
+#include "scarp/run/provenance.hpp"
 #include "scarp/run/results.hpp"
+#include "scarp/run/runner.hpp"
 #include "scarp/run/scheme.hpp"
-#include "scarp/run/stage.hpp"
+#include "scarp/run/start.hpp"
 
 namespace scarp::run {
 namespace {
 
-std::atomic<bool> asked_to_stop{false};
-
-/// Turns SIGINT and SIGTERM into a request to stop for as long as it lives.
-class SignalGuard {
- public:
-  SignalGuard() {
-    asked_to_stop = false;
-    old_int_ = std::signal(SIGINT, [](int) { asked_to_stop = true; });
-    old_term_ = std::signal(SIGTERM, [](int) { asked_to_stop = true; });
-  }
-  ~SignalGuard() {
-    std::signal(SIGINT, old_int_);
-    std::signal(SIGTERM, old_term_);
-  }
-  SignalGuard(const SignalGuard&) = delete;
-  SignalGuard& operator=(const SignalGuard&) = delete;
-
- private:
-  void (*old_int_)(int);
-  void (*old_term_)(int);
-};
-
 template <int Dim>
-Ledger<Dim> open_ledger(const Body<Dim>& body) {
-  Ledger<Dim> ledger;
-  record_motion(body, ledger.last);
-  ledger.initial_mass = ledger.last.mass;
-  ledger.initial_kinetic_energy = ledger.last.kinetic_energy;
-  return ledger;
+std::string name_of(const input::CaseOf<Dim>& input, const Options& options) {
+  return options.case_name.empty() ? input.path : options.case_name;
 }
 
-/// Energies, over that of the weight, which are of no account: a fall by a thousandth of the height.
-constexpr double of_no_account = 1e-3;
-
-void say_whether_energy_closes(const EnergyCheck& energy) {
-  if (energy.largest_ratio() > EnergyCheck::worth_a_warning) logging::warn(energy_warning(energy));
-}
-
-/// How the time of the steps was spent, threads added up.
+/// What the case's checkpoints say of it.
 template <int Dim>
-void print_profile(const Ledger<Dim>& ledger) {
-  const double total = std::accumulate(ledger.seconds.begin(), ledger.seconds.end(), 0.0);
-  if (!(total > 0)) return;
-  fmt::print("phase of the step                      share   ns per point and step\n");
-  for (int i = 0; i < phases; ++i) {
-    if (ledger.seconds[i] == 0) continue;  // no part of these steps
-    fmt::print("{:36} {:6.1f} %  {:8.1f}\n", phase_names[i], 100 * ledger.seconds[i] / total,
-               1e9 * ledger.seconds[i] / static_cast<double>(ledger.point_steps));
-  }
-}
-
-/// When the run ends if this stage, which starts at `time`, and those after it take all their durations [s].
-template <int Dim>
-double latest_end(const input::CaseOf<Dim>& input, int stage, double time) {
-  for (std::size_t i = stage; i < input.stages.size(); ++i) time += input.stages[i].duration;
-  return time;
+CheckpointHead head_of(const input::CaseOf<Dim>& input, const Options& options, const Results<Dim>& results,
+                       const Body<Dim>& body) {
+  CheckpointHead head;
+  head.dimension = Dim;
+  head.program = program_name();
+  head.case_name = name_of(input, options);
+  head.title = input.title;
+  head.case_text = results.case_text();
+  head.mesh = mesh_hash(*body.mesh);
+  head.files = files_read(head.case_text, case_in(results.folder()));
+  return head;
 }
 
 template <int Dim>
 Outcome run_in(const input::CaseOf<Dim>& input, const Options& options) {
   const int threads = exec::set_threads(options.threads);
-  Body<Dim> body = build_body(input);
+  Body<Dim> body = input.start ? start_body(input) : build_body(input);
   warn_of_ignored_flip(input);
   warn_of_sparse_points(input, body);
   for (const auto& warning : short_lengths(input, body)) logging::warn(warning);
-  Ledger<Dim> ledger = open_ledger(body);
-  Results<Dim> results(input, options.out, body);
-
-  const SignalGuard guard;
-  const std::function<bool()> interrupted = [] { return asked_to_stop.load(); };
-  const auto start = std::chrono::steady_clock::now();
-  RunRecord record{"running", "", 0, threads, 0, 0, {}};
-  EnergyCheck energy(ledger, of_no_account * weight_energy(body));
-  auto write_summary = [&](const std::string& status, const std::string& message) {
-    record.status = status;
-    record.message = message;
-    record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    record.energy_error = energy.relative(ledger);
-    record.largest_energy_error = energy.largest_ratio();
-    results.summary(body, ledger, record);
-  };
+  auto state = new_state(body);
+  Results<Dim> results(input, options.out, body, options.overwrite ? Before::replace : Before::nothing,
+                       name_of(input, options));
+  const auto head = head_of(input, options, results, body);
+  write_provenance(results.folder(), options, threads, head);
+  const logging::Copy copy(results.folder() + "/run.log");
   results.frame(body, 0);
-  write_summary("running", "");
-  try {
-    Progress progress(options.quiet);
-    Context<Dim> context{input, body, ledger, results, progress, energy, interrupted, options.profile};
-    bool cut = false;
-    for (int i = 0; i < static_cast<int>(input.stages.size()) && !interrupted(); ++i) {
-      progress.stage(input.stages[i].name, i, static_cast<int>(input.stages.size()), latest_end(input, i, ledger.time));
-      if (input.stages[i].remove && !cut) {
-        cut = true;
-        energy.start(ledger);
-      }
-      run_stage(context, i, record.stages.emplace_back());
-      results.history(i, body.point_count(), ledger);
-      results.frame(body, ledger.time);
-    }
-  } catch (const RunError& error) {
-    results.frame(body, ledger.time);
-    say_whether_energy_closes(energy);
-    write_summary("failed", error.what());
-    throw;
+  return Runner<Dim>(input, options, threads, body, state, results, head).go();
+}
+
+/// The run of a checkpoint, from there to its end.
+template <int Dim>
+Outcome resume_in(input::CaseOf<Dim> input, const Options& options, std::optional<CheckpointFile> from,
+                  std::unique_ptr<FolderLock> lock) {
+  const auto head = from->head();
+  const int threads = exec::set_threads(options.threads);
+  input.title = head.title;  // the standard one is the name of the file that was read
+  Body<Dim> body = build_ground(input);
+  if (mesh_hash(*body.mesh) != head.mesh) {
+    throw InputError("the mesh is not that of the checkpoint", from->path(), "bring back the mesh file as it was");
   }
-  if (options.profile) print_profile(ledger);
-  say_whether_energy_closes(energy);
-  write_summary(interrupted() ? "interrupted" : "done", "");
-  return interrupted() ? Outcome::interrupted : Outcome::done;
+  load_body(from->load(), from->changed() ? Elements::by_place : Elements::as_kept, body);
+  auto state = new_state(body);
+  load_run(from->load(), input, body, state);
+  from.reset();  // as large as the body
+  logging::set_warnings(state.warnings);
+  Results<Dim> results(input, options.out, std::move(lock), state.results, head.case_name);
+  write_provenance(results.folder(), options, threads, head);
+  const logging::Copy copy(results.folder() + "/run.log");
+  return Runner<Dim>(input, options, threads, body, state, results, head).go();
 }
 
 template <int Dim>
 std::string check_in(const input::CaseOf<Dim>& input) {
-  Body<Dim> body = build_body(input);
+  Body<Dim> body = input.start ? start_body(input) : build_body(input);
   warn_of_ignored_flip(input);
   warn_of_sparse_points(input, body);
   std::string text = fmt::format("{}: {}\n", input.path, input.title);
@@ -169,6 +119,31 @@ std::string check_in(const input::CaseOf<Dim>& input) {
 
 Outcome run_case(const input::AnyCase& input, const Options& options) {
   return std::visit([&](const auto& its) { return run_in(its, options); }, input);
+}
+
+Outcome resume_case(const Options& options) {
+  const std::string kept = case_in(options.out);
+  auto lock = std::make_unique<FolderLock>(options.out);
+  auto from = latest_checkpoint(options.out, options.edited);
+  if (!from) {
+    auto input = input::read_any_case(kept);
+    logging::info(fmt::format("{} has no checkpoint yet: the run starts again", options.out));
+    auto again = options;
+    again.overwrite = true;
+    const auto marker = marker_in(options.out);
+    again.case_name = marker.case_name;
+    std::visit([&](auto& its) { its.title = marker.title.empty() ? its.title : marker.title; }, input);
+    lock.reset();
+    return run_case(input, again);
+  }
+  check_case_unchanged(*from, kept);
+  if (!options.quiet) {
+    logging::info(fmt::format("goes on from {}: stage \"{}\", t = {:.6g} s, step {}", from->path(), from->head().stage,
+                              from->head().time, from->head().steps));
+  }
+  auto input = input::read_case_text(from->head().case_text, kept);
+  return std::visit([&](auto& its) { return resume_in(std::move(its), options, std::move(from), std::move(lock)); },
+                    input);
 }
 
 std::string check_case(const input::AnyCase& input) {

@@ -9,8 +9,6 @@
 #include "scarp/base/error.hpp"
 #include "scarp/base/log.hpp"
 #include "scarp/run/build.hpp"
-#include "scarp/run/removal.hpp"
-#include "scarp/run/rest_watch.hpp"
 #include "scarp/run/scheme.hpp"
 
 namespace scarp::run {
@@ -39,23 +37,6 @@ double fitted(double dt, double until) {
   return until <= 4 * dt ? until / std::ceil(until / dt * (1 - 1e-12)) : dt;
 }
 
-/// Times at regular distances from the start of a stage.
-class Clock {
- public:
-  Clock(double start, double every) : start_(start), every_(every), count_(1) {}
-  double next() const { return every_ > 0 ? start_ + every_ * count_ : std::numeric_limits<double>::infinity(); }
-  bool due(double time) {
-    if (time < next() * (1 - 1e-12)) return false;
-    // Straight to the first one after `time`: there may be any number of them in a step.
-    count_ = std::max(count_ + 1, std::floor((time - start_) / every_));
-    if (next() * (1 - 1e-12) <= time) ++count_;
-    return true;
-  }
-
- private:
-  double start_, every_, count_;
-};
-
 std::string end_text(IntegrationEnd end) {
   switch (end) {
     case IntegrationEnd::unstable:
@@ -70,7 +51,7 @@ std::string end_text(IntegrationEnd end) {
 
 template <int Dim>
 void check_failures(const Context<Dim>& context) {
-  const auto& ledger = context.ledger;
+  const auto& ledger = context.state.ledger;
   if (ledger.failures <= context.input.method.largest_failures) return;
   throw RunError(
       fmt::format("the stress update of point {} failed at t = {:.6g} s, step {}: {}",
@@ -83,8 +64,9 @@ void check_failures(const Context<Dim>& context) {
 
 /// Says once that the books of energy do not close, and stops where they are far from it.
 template <int Dim>
-void check_energy(const Context<Dim>& context, bool& said) {
-  const auto& energy = context.energy;
+void check_energy(const Context<Dim>& context) {
+  const auto& energy = context.state.energy;
+  bool& said = context.state.stage->energy_said;
   if (energy.ratio() > EnergyCheck::worth_a_warning && !said) {
     said = true;
     context.progress.clear();
@@ -94,7 +76,7 @@ void check_energy(const Context<Dim>& context, bool& said) {
   if (largest <= 0 || energy.ratio() <= largest) return;
   throw RunError(
       fmt::format("the books of energy do not close at t = {:.6g} s, step {}: the motion is not that of the soil",
-                  context.ledger.time, context.ledger.steps),
+                  context.state.ledger.time, context.state.ledger.steps),
       fmt::format("{:.3g} of the run's energies unaccounted for (largest_energy_error: {:g})", energy.ratio(), largest),
       fmt::format("{}; or allow more with largest_energy_error in [method], 0 for any", energy_remedy));
 }
@@ -103,13 +85,13 @@ void check_energy(const Context<Dim>& context, bool& said) {
 /// is what the last frame shows.
 template <int Dim>
 StepTotals<Dim> step(Context<Dim>& context, double dt, const StepSettings& settings) {
+  auto& ledger = context.state.ledger;
   try {
     return advance(context.body, dt, settings);
   } catch (const RunError& error) {
-    context.ledger.time += dt;
-    throw RunError(
-        fmt::format("{} at t = {:.6g} s, step {}", error.problem(), context.ledger.time, context.ledger.steps + 1),
-        error.value(), error.remedy());
+    ledger.time += dt;
+    throw RunError(fmt::format("{} at t = {:.6g} s, step {}", error.problem(), ledger.time, ledger.steps + 1),
+                   error.value(), error.remedy());
   }
 }
 
@@ -117,7 +99,8 @@ template <int Dim>
 double stable_time_step(const Context<Dim>& context, double critical) {
   if (!std::isfinite(critical)) {
     throw RunError("no point has any stiffness left, so that there is no critical time step",
-                   fmt::format("t = {:.6g} s", context.ledger.time), "look at the last frame: all soil has separated");
+                   fmt::format("t = {:.6g} s", context.state.ledger.time),
+                   "look at the last frame: all soil has separated");
   }
   return context.input.method.safety * critical;
 }
@@ -149,7 +132,9 @@ template <int Dim>
 template <int Dim>
 class LettingGo {
  public:
-  LettingGo(double release, double start, Body<Dim>& body) : release_(release), start_(start), body_(body) {}
+  /// `held`: is the imbalance known, and when not yet, it is found before the first step.
+  LettingGo(double release, double start, bool& held, Body<Dim>& body)
+      : release_(release), start_(start), held_(held), body_(body) {}
   ~LettingGo() { hold(0); }
   LettingGo(const LettingGo&) = delete;
   LettingGo& operator=(const LettingGo&) = delete;
@@ -160,6 +145,10 @@ class LettingGo {
     if (release_ > 0) hold(std::max(0.0, 1 - (time - start_) / release_));
   }
   bool finished(double time) const { return time >= start_ + release_; }
+  /// The stage is over.
+  void forget() {
+    for (auto& field : body_.fields) field.outside.release = {};
+  }
 
  private:
   void hold(double share) {
@@ -167,7 +156,7 @@ class LettingGo {
   }
 
   double release_, start_;
-  bool held_ = false;
+  bool& held_;
   Body<Dim>& body_;
 };
 
@@ -178,15 +167,13 @@ constexpr double moved_heights = 0.01;
 template <int Dim>
 class RecordKeeper {
  public:
-  RecordKeeper(StageRecord& record, const Context<Dim>& context) : record_(record), context_(context) {
-    record_.moved_beyond = moved_heights * height(context.body);
-  }
+  RecordKeeper(StageRecord& record, const Context<Dim>& context) : record_(record), context_(context) {}
   ~RecordKeeper() { update(); }
   RecordKeeper(const RecordKeeper&) = delete;
   RecordKeeper& operator=(const RecordKeeper&) = delete;
 
   void update() {
-    const auto& ledger = context_.ledger;
+    const auto& ledger = context_.state.ledger;
     record_.end = ledger.time;
     record_.unbalanced_ratio = ledger.unbalanced_ratio();
     record_.max_velocity = ledger.last.max_velocity;
@@ -201,65 +188,94 @@ class RecordKeeper {
 
 }  // namespace
 
+namespace {
+
+/// Puts the next stage under way.
 template <int Dim>
-void run_stage(Context<Dim>& context, int index, StageRecord& record) {
-  const auto& stage = context.input.stages[index];
-  auto& [input, body, ledger, results, progress, energy, interrupted, profile] = context;
-  record = {};
+void begin_stage(Context<Dim>& context, const StepSettings& settings) {
+  auto& [input, body, state, results, progress, interrupted, keep, profile] = context;
+  const int index = state.stage_index();
+  const auto& stage = input.stages[static_cast<std::size_t>(index)];
+  if (stage.remove && !state.cut) {
+    state.cut = true;
+    state.energy.start(state.ledger);
+  }
+  auto& record = state.stages.emplace_back();
   record.name = stage.name;
-  record.start = ledger.time;
+  record.start = state.ledger.time;
   record.removal = stage.remove.has_value();
   record.ended = "failed";
-  RecordKeeper<Dim> keeper(record, context);
-  const double end = ledger.time + stage.duration;
-  set_to_zero(body, stage, ledger);
-  std::optional<Removal<Dim>> removal;
-  if (stage.remove) removal.emplace(*stage.remove, ledger.time);
-  std::optional<RestWatch<Dim>> rest;
-  if (stage.rest) rest.emplace(*stage.rest, body);
-  const StepSettings settings{scheme_of(input.method, stage.flip),
-                              stage.damping,
-                              input.method.corrected_quadrature ? QuadratureRule::corrected : QuadratureRule::points,
-                              {input.method.tolerance, 1e-5},
-                              input.method.remove_leaving,
-                              profile};
+  record.moved_beyond = moved_heights * height(body);
+  set_to_zero(body, stage, state.ledger);
+  auto& now = state.stage.emplace(input, index, state.ledger, body);
   open_sides(body, input, settings, index);
-  LettingGo<Dim> imbalance(stage.release, ledger.time, body);
-  Clock frames(ledger.time, input.output.every), rows(ledger.time, input.output.history);
-  double critical = critical_time_step(body, settings.scheme, settings.damping);
-  bool resting = false, first = true, energy_said = energy.largest_ratio() > EnergyCheck::worth_a_warning;
+  now.critical = critical_time_step(body, settings.scheme, settings.damping);
+  now.energy_said = state.energy.largest_ratio() > EnergyCheck::worth_a_warning;
+}
 
-  while (ledger.time < end && !resting && !interrupted()) {
-    if (removal) removal->take_due(ledger.time, body, ledger);
+template <int Dim>
+StepSettings settings_of(const input::CaseOf<Dim>& input, const input::StageInputOf<Dim>& stage, bool profile) {
+  return {scheme_of(input.method, stage.flip),
+          stage.damping,
+          input.method.corrected_quadrature ? QuadratureRule::corrected : QuadratureRule::points,
+          {input.method.tolerance, 1e-5},
+          input.method.remove_leaving,
+          profile};
+}
+
+}  // namespace
+
+template <int Dim>
+void run_stage(Context<Dim>& context) {
+  auto& [input, body, state, results, progress, interrupted, keep, profile] = context;
+  auto& ledger = state.ledger;
+  const int index = state.stage_index();
+  const auto& stage = input.stages[static_cast<std::size_t>(index)];
+  const auto settings = settings_of(input, stage, profile);
+  if (!state.stage) begin_stage(context, settings);
+  auto& record = state.stages.back();
+  auto& now = *state.stage;
+  RecordKeeper<Dim> keeper(record, context);
+  const double end = record.start + stage.duration;
+  LettingGo<Dim> imbalance(stage.release, record.start, now.held, body);
+
+  while (ledger.time < end && !now.resting && !interrupted()) {
+    if (now.removal) now.removal->take_due(ledger.time, body, ledger);
     imbalance.before_step(ledger.time, settings);
-    const double next_lift = removal ? removal->next_time() : end;
-    const double until = std::min({end, frames.next(), next_lift}) - ledger.time;
-    const double dt = fitted(stable_time_step(context, critical), until);
+    const double next_lift = now.removal ? now.removal->next_time() : end;
+    const double until = std::min({end, now.frames.next(), next_lift}) - ledger.time;
+    const double dt = fitted(stable_time_step(context, now.critical), until);
     const auto totals = step(context, dt, settings);
     ledger.add(dt, body.point_count(), totals);
-    energy.step(ledger);
+    state.energy.step(ledger);
     if (end - ledger.time < 1e-9 * dt) ledger.time = end;
-    critical = totals.stress.critical_dt;
+    now.critical = totals.stress.critical_dt;
     ++record.steps;
-    resting =
-        rest && rest->at_rest(ledger, body) && (!removal || removal->finished()) && imbalance.finished(ledger.time);
+    now.resting = now.rest && now.rest->at_rest(ledger, body) && (!now.removal || now.removal->finished()) &&
+                  imbalance.finished(ledger.time);
 
-    if (input.output.history <= 0 || rows.due(ledger.time) || first) results.history(index, body.point_count(), ledger);
-    if (frames.due(ledger.time) || (first && stage.remove)) results.frame(body, ledger.time);
-    first = false;
+    if (input.output.history <= 0 || now.rows.due(ledger.time) || now.first)
+      results.history(index, body.point_count(), ledger);
+    if (now.frames.due(ledger.time) || (now.first && stage.remove)) results.frame(body, ledger.time);
+    now.first = false;
     progress.show(ledger.time, ledger.point_steps, ledger.unbalanced_ratio(), ledger.last.max_velocity);
     check_failures(context);
-    check_energy(context, energy_said);
+    check_energy(context);
+    keep();
   }
 
   keeper.update();
-  record.ended = interrupted() ? "interrupted" : resting ? "at rest" : "duration";
+  const bool over = now.resting || ledger.time >= end;
+  record.ended = !over ? "interrupted" : now.resting ? "at rest" : "duration";
   progress.stage_ended(fmt::format("{} at t = {:.4g} s; {}", record.ended == "duration" ? "over" : record.ended,
                                    ledger.time, how_far(record)));
-  if (stage.rest && stage.rest->required && !resting && !interrupted()) refuse_unrest(stage, record, ledger, *rest);
+  if (!over) return;
+  if (stage.rest && stage.rest->required && !now.resting) refuse_unrest(stage, record, ledger, *now.rest);
+  imbalance.forget();
+  state.stage.reset();
 }
 
-template void run_stage<2>(Context<2>&, int, StageRecord&);
-template void run_stage<3>(Context<3>&, int, StageRecord&);
+template void run_stage<2>(Context<2>&);
+template void run_stage<3>(Context<3>&);
 
 }  // namespace scarp::run

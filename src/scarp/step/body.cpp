@@ -184,17 +184,24 @@ void locate_points(const Body<Dim>& body, VelocityField<Dim>& field, bool prefer
   }
   if (prefer_full) prefer_full_elements(body, field);
   field.least_mass = 1e-12 * comm::least_of_all(lightest);
-  reorder(body, field);
-  make_room(body, field);
-  exec::arrange_in_new_memory(field.blocks);
-  field.out_of_place = 0;
 }
 
 }  // namespace
 
 template <int Dim>
+void take_up_points(Body<Dim>& body) {
+  for (auto& field : body.fields) {
+    reorder(body, field);
+    make_room(body, field);
+    exec::arrange_in_new_memory(field.blocks);
+    field.out_of_place = 0;
+  }
+}
+
+template <int Dim>
 void locate_points(Body<Dim>& body, bool prefer_full) {
   for (auto& field : body.fields) locate_points<Dim>(body, field, prefer_full);
+  take_up_points(body);
 }
 
 namespace {
@@ -284,6 +291,8 @@ void reorder(Body<Dim>& body) {
 
 template struct Body<2>;
 template struct Body<3>;
+template void take_up_points<2>(Body<2>&);
+template void take_up_points<3>(Body<3>&);
 template void locate_points<2>(Body<2>&, bool);
 template void locate_points<3>(Body<3>&, bool);
 template void reorder<2>(Body<2>&);

@@ -112,6 +112,11 @@ struct Body {
 template <int Dim>
 void locate_points(Body<Dim>& body, bool prefer_full = false);
 
+/// Prepares the next step of points whose elements are known, with the arrays in the order of these: what
+/// locate_points() ends with.
+template <int Dim>
+void take_up_points(Body<Dim>& body);
+
 /// Orders points and buffers of all fields, or one, by element after points have moved or gone.
 template <int Dim>
 void reorder(Body<Dim>& body);

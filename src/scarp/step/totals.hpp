@@ -48,6 +48,23 @@ struct StepTotals : Energies {
   }
   static constexpr std::size_t sums = energy_terms.size() + 9 + Dim;
 
+  /// f({key, unit, meaning}, member) for those that tell how the body is after the step (run/archive.hpp).
+  template <class Entry, class Self, class F>
+  static void each_saved(Self& t, F&& f) {
+    f(Entry{"kinetic_energy", "kJ", "of the points"}, t.kinetic_energy);
+    f(Entry{"mass", "Mg", "of the points"}, t.mass);
+    f(Entry{"momentum", "Mg m/s", "of the points"}, t.momentum);
+    f(Entry{"max_velocity", "m/s", "of the fastest point"}, t.max_velocity);
+    f(Entry{"unbalanced_force", "kN", "sum over the nodes of the size of gravity less internal force"},
+      t.unbalanced_force);
+    f(Entry{"weight", "kN", "sum over the nodes of the size of gravity forces"}, t.weight);
+    f(Entry{"substeps", "", "of all stress updates of the step"}, t.stress.substeps);
+    f(Entry{"most_substeps", "", "of one stress update of the step"}, t.stress.most_substeps);
+    f(Entry{"separated", "", "points that separated in the step"}, t.stress.separated);
+    f(Entry{"on_floor", "", "points on the floor of p_c in the step"}, t.stress.on_floor);
+    f(Entry{"no_stiffness", "", "points without stiffness in the step"}, t.stress.no_stiffness);
+  }
+
   /// Adds counts, extremes and times, no sums.
   void add_counts(const StepTotals& other);
 };

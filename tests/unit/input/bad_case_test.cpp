@@ -10,7 +10,8 @@ TEST(BadCase, UnknownKeys) {
   expect_all_refused({
       {"every = 0.25", "@evry = 0.25", "[output] has no key evry", "0.25", "did you mean every?"},
       {"[output]", "@[ouput]", "the case has no key ouput", "a table", "did you mean output?"},
-      {"every = 0.25", "@zzzzzzzz = true", "no key zzzzzzzz", "true", "its keys are colour, every, history"},
+      {"every = 0.25", "@zzzzzzzz = true", "no key zzzzzzzz", "true",
+       "its keys are checkpoint, colour, every, history"},
       {"flip = 0.95", "@safty = 0.4", "[method] has no key safty", "0.4", "did you mean safety?"},
       {"duration = 1.5", "duration = 1.5\n@dampng = 0.1", "[[stage]] has no key dampng", "0.1",
        "did you mean damping?"},

@@ -56,6 +56,8 @@ std::map<std::string, Keys> readers() {
   all["grid"] = asked_for(marked("element = 0.5", "element = 0.5@"), inner);
   all["[method]"] = asked_for(marked("[method]\n", "[method]\n@"), line);
   all["[output]"] = asked_for(marked("[output]\n", "[output]\n@"), line);
+  all["checkpoint"] = asked_for(marked("[output]\n", "[output]\ncheckpoint = { @ }\n"), "zzzzzzzzzz = 1");
+  all["[start]"] = asked_for(marked("[output]\n", "[start]\nfrom = \"other.out\"\n@\n[output]\n"), line);
   all["[[region]]"] = asked_for(marked("spacing = 0.5\n", "spacing = 0.5\n@"), line);
   all["[[boundary]]"] = asked_for(marked("friction = 0.3\n", "friction = 0.3\n@"), line);
   all["absorbing"] = asked_for(marked(absorbing, ""), line);
@@ -66,11 +68,11 @@ std::map<std::string, Keys> readers() {
 }
 
 /// Not of interest to elsewhere(): a name, which most tables have, and the tables of the case itself.
-const Keys left_out{"name", "mesh", "method", "output", "region", "boundary", "stage"};
+const Keys left_out{"name", "mesh", "method", "output", "region", "boundary", "stage", "start"};
 
 TEST(Elsewhere, KnowsTheKeysThatTheReadersAskFor) {
   const auto all = readers();
-  ASSERT_EQ(all.size(), 11u);
+  ASSERT_EQ(all.size(), 13u);
   for (const auto& [table, keys] : all) {
     EXPECT_FALSE(keys.empty()) << table;
     for (const auto& key : keys) EXPECT_EQ(elsewhere(key).empty(), left_out.contains(key)) << key << " of " << table;

@@ -87,10 +87,12 @@ TEST_F(Writers, ACollectionIsWholeAfterEachFrame) {
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
       "<Collection>\n";
   collection.add(0, "points_00000.vtu");
+  collection.write();
   const std::string first = "<DataSet timestep=\"0\" part=\"0\" file=\"points_00000.vtu\"/>\n",
                     tail = "</Collection>\n</VTKFile>\n";
   EXPECT_EQ(content("points.pvd"), head + first + tail);
   collection.add(0.1, "points_00001.vtu");
+  collection.write();
   EXPECT_EQ(content("points.pvd"),
             head + first + "<DataSet timestep=\"0.1\" part=\"0\" file=\"points_00001.vtu\"/>\n" + tail);
 }
