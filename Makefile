@@ -3,12 +3,13 @@ BUILD := build
 JOBS := $(shell nproc)
 RESULTS := results/slope_cut
 
-.PHONY: help demo test validate robustness build bench bench-kernels bench-scaling bench-programs package figures deps format clean
+.PHONY: help demo test validate faults robustness build bench bench-kernels bench-scaling bench-programs package figures deps format clean
 
 help:
 	@echo "make demo     cut a slope of structured clay and draw what happens, in $(RESULTS)"
 	@echo "make test     build and run all tests"
 	@echo "make validate  run the verification problems on more meshes and draw them (minutes)"
+	@echo "make faults   stop runs at random moments and fill their disks, and compare with undisturbed ones (minutes)"
 	@echo "make robustness  run slopes and columns at many settings: what results depend on (45 minutes)"
 	@echo "make bench    measure whole steps, in $(BUILD)/bench.json; make bench-kernels their parts"
 	@echo "make build    build the program, $(BUILD)/bin/scarp"
@@ -18,7 +19,7 @@ help:
 	@echo "make clean    remove $(BUILD)"
 
 demo: build
-	$(BUILD)/bin/scarp run examples/slope_cut/slope_cut.toml --out $(RESULTS)
+	$(BUILD)/bin/scarp run examples/slope_cut/slope_cut.toml --out $(RESULTS) --overwrite
 	$(BUILD)/bin/scarp plot $(RESULTS)
 
 test: deps
@@ -33,6 +34,13 @@ validate: deps
 	$(BUILD)/tests/validate $(BUILD)/validate
 	/usr/bin/python3 tools/figures/validate.py $(BUILD)/validate
 	/usr/bin/python3 tools/figures/length.py $(BUILD)/validate
+
+# KILLS=300 FILLS=40 SEED=1
+faults: deps
+	cmake --preset release -DSCARP_TESTS=ON -DSCARP_BENCH=OFF
+	cmake --build --preset release --parallel $(JOBS) --target scarp scarp_test_umats
+	/usr/bin/python3 tests/faults/faults.py $(BUILD)/bin/scarp --umat $(BUILD)/tests/umat/kinematic_f.so --json $(BUILD)/faults.json \
+	  --kills $(or $(KILLS),300) --fills $(or $(FILLS),40) --seed $(or $(SEED),1)
 
 # STUDIES="steps plain ...": only those; tools/robustness.py --help
 robustness: build

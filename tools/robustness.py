@@ -256,7 +256,7 @@ def run(program, one, out):
         return folder
     folder.mkdir(parents=True, exist_ok=True)
     print(f"{one.study}: {one.name}", file=sys.stderr, flush=True)
-    command = [program, "run", str(ROOT / one.case), "--out", str(folder), "--threads", str(one.threads), "--quiet"]
+    command = [program, "run", str(ROOT / one.case), "--out", str(folder), "--threads", str(one.threads), "--quiet", "--overwrite"]
     done = subprocess.run(command + one.arguments(), capture_output=True, text=True, check=False)
     if done.stderr.strip():
         print(done.stderr.strip(), file=sys.stderr, flush=True)

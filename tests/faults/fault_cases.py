@@ -10,7 +10,7 @@ MODELS = {
     "linear-elastic": (ELASTIC, ""),
     "neo-hookean": (ELASTIC, ""),
     "von-mises": (ELASTIC | {"s_u": 24.0, "s_u_residual": 8.0, "epsp_residual": 0.1}, ""),
-    "tresca": (ELASTIC | {"s_u": 20.0}, ""),
+    "tresca": (ELASTIC | {"s_u": 24.0}, ""),
     "mohr-coulomb": (ELASTIC | {"c": 3.0, "phi": 25.0, "psi": 3.0, "c_residual": 1.0, "epsp_residual": 0.1}, ""),
     "drucker-prager": (ELASTIC | {"c": 3.0, "phi": 25.0, "psi": 3.0}, ""),
     "modified-cam-clay": (CLAY | {"p_atm": 101.325}, "initial = { OCR = 1.2 }"),
@@ -25,7 +25,7 @@ def material(model, more=""):
 
 
 def umat(library):
-    return (f'[[material]]\nname = "soil"\nmodel = "umat"\ndensity = 1.8\nlibrary = "{library}"\nconstants = [2e4, 0.3, 20.0, 500.0]\n'
+    return (f'[[material]]\nname = "soil"\nmodel = "umat"\ndensity = 1.8\nlibrary = "{library}"\nconstants = [2e4, 0.3, 60.0, 500.0]\n'
             'state = [{ name = "back", kind = "tensor" }, { name = "epsp", kind = "strain" }, { name = "epsp_eq", kind = "scalar" }]\n')
 
 

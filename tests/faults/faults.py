@@ -1,10 +1,12 @@
-"""Stops runs at random moments and goes on with them: the results are those of a run that nobody disturbed.
+"""Stops runs at random moments, fills their disk, and goes on with them: the results are those of a run that nobody disturbed.
 
-Usage: faults.py PROGRAM [--kills N] [--seed N] [--umat LIBRARY] [--only NAME ...] [--json FILE]
+Usage: faults.py PROGRAM [--kills N] [--fills N] [--seed N] [--umat LIBRARY] [--only NAME ...] [--json FILE]
 
 A run is stopped by SIGKILL, SIGTERM, SIGINT or SIGHUP after a random time, with checkpoints at random intervals, on one to three threads; so
 is what goes on with it, at random, until it is done. Frames, points.pvd and history.csv are compared byte by byte with the undisturbed
-run's, and summary.json but for wall_seconds, ns_per_point_step and threads. Exits with 1 where anything differs.
+run's, and summary.json but for wall_seconds, ns_per_point_step and threads. For the fills a run writes into a disk of memory (tmpfs, which
+only root may mount; left out otherwise) that is too small by more or less: it ends with status 3 and says so, what it leaves is whole, and
+with more room it goes on. Exits with 1 where anything is wrong.
 """
 
 import argparse
@@ -113,10 +115,82 @@ class Trials:
         return [f"{' '.join(story)}: {what}" for what in differ]
 
 
+class SmallDisk:
+    """A folder of its own size."""
+
+    def __init__(self, folder, size):
+        self.folder = folder
+        os.makedirs(folder, exist_ok=True)
+        self.there = self.mount(f"size={size}")
+
+    def mount(self, options):
+        return subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", self.folder], capture_output=True).returncode == 0
+
+    def enlarge(self, size):
+        return subprocess.run(["mount", "-o", f"remount,size={size}", self.folder], capture_output=True).returncode == 0
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.there:
+            subprocess.run(["umount", "-l", self.folder], check=True)
+
+
+def half_files(folder):
+    """What is not whole of the files of a run."""
+    wrong = []
+    for name in sorted(os.listdir(folder)):
+        with open(os.path.join(folder, name), "rb") as file:
+            content = file.read()
+        if name.endswith(".part"):
+            wrong.append(f"{name} was left behind")
+        elif name.endswith((".vtu", ".pvd")) and not content.rstrip().endswith(b"</VTKFile>"):
+            wrong.append(f"{name} is half a file")
+        elif name == "history.csv":
+            lines = content.split(b"\n")
+            if lines[-1] or len({line.count(b",") for line in lines[:-1]}) > 1:
+                wrong.append("history.csv ends within a row")
+    return wrong
+
+
+def size_of(folder):
+    """Bytes, in whole pages, as tmpfs counts."""
+    return sum((os.path.getsize(os.path.join(folder, name)) + 4095) // 4096 * 4096 for name in os.listdir(folder))
+
+
+def fill(trials, name, share):
+    """A run on a disk with this share of the room that it needs. Returns what is wrong; None where no such disk can be had."""
+    trials.prepare(name)
+    undisturbed = os.path.join(trials.folder, name + ".undisturbed")
+    whole = size_of(undisturbed)
+    with SmallDisk(os.path.join(trials.folder, "disk"), int(share * whole)) as disk:
+        if not disk.there:
+            return None
+        status, error = trials.call("run", name + ".toml", "--out", "disk/r", "--quiet", "--set", "output.checkpoint={ steps = 25, keep = 1 }")
+        if status == 0:
+            return [f"at {share:.2f} of {whole} bytes: it was done"]
+        wrong = half_files(os.path.join(disk.folder, "r")) if os.path.isdir(os.path.join(disk.folder, "r")) else []
+        if status != 3 or "No space left on device" not in error or "remedy: make room" not in error:
+            wrong.append(f"status {status}: {error}")
+        disk.enlarge(4 * whole + (1 << 20))
+        if not os.path.exists(os.path.join(disk.folder, "r", "case.toml")):
+            status, error = trials.call("run", name + ".toml", "--out", "disk/r", "--quiet", "--overwrite")
+        else:
+            status, error = trials.call("resume", "disk/r", "--quiet")
+        if status != 0:
+            return [f"at {share:.2f}: {what}" for what in [*wrong, f"status {status}: {error}"]]
+        differ, compared = differences(undisturbed, os.path.join(disk.folder, "r"))
+        trials.compared += compared
+        differ = [what for what in differ if what != "summary.json: warnings" or "has no checkpoint" not in error]
+        return [f"at {share:.2f}: {what}" for what in [*wrong, *differ]]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("--kills", type=int, default=100)
+    parser.add_argument("--fills", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--umat", help="the library of tests/data/umat/kinematic.f")
     parser.add_argument("--only", nargs="+", default=[])
@@ -134,13 +208,23 @@ def main():
             found = trials.trial(name)
             wrong += [f"{name}: {what}" for what in found]
             print(f"{name}: {found or 'the same'}", flush=True)
-        figures = {"stops": trials.stops, "runs": count, "cases": len(trials.undisturbed), "started_again": trials.starts_again,
+        fills = 0
+        for k in range(arguments.fills):
+            name = names[k % len(names)]
+            found = fill(trials, name, (k + 0.5) / (arguments.fills + 1))
+            if found is None:
+                print("no disk of memory can be mounted here: the fills are left out")
+                break
+            fills += 1
+            wrong += [f"{name}: {what}" for what in found]
+            print(f"{name} on a full disk: {found or 'the same'}", flush=True)
+        figures = {"fills": fills, "stops": trials.stops, "runs": count, "cases": len(trials.undisturbed), "started_again": trials.starts_again,
                    "bytes_compared": trials.compared, "minutes": (time.monotonic() - start) / 60, "wrong": wrong}
     if arguments.json:
         with open(arguments.json, "w", encoding="utf-8") as file:
             json.dump(figures, file, indent=2)
     print("\n".join(wrong))
-    print(f"{figures['stops']} stops of {count} runs of {figures['cases']} cases, {figures['bytes_compared']} bytes compared in "
+    print(f"{fills} full disks, {figures['stops']} stops of {count} runs of {figures['cases']} cases, {figures['bytes_compared']} bytes compared in "
           f"{figures['minutes']:.1f} min: {len(wrong)} differences")
     sys.exit(1 if wrong else 0)
 

@@ -264,10 +264,10 @@ void check_absorbing(const CaseOf<Dim>& input) {
     if (stage == input.stages.end())
       throw InputError("no stage has this name", fmt::format("from = \"{}\"", its.from),
                        "name the [[stage]] with which the side begins to absorb", its.position);
-    if (stage == input.stages.begin())
+    if (stage == input.stages.begin() && !input.start)  // with a start it was held in the run before
       throw InputError("a side is fixed for a stage before it absorbs, so that its reaction is known",
-                       fmt::format("from = \"{}\", the first stage", its.from), "put a stage with rest before it",
-                       its.position);
+                       fmt::format("from = \"{}\", the first stage", its.from),
+                       "put a stage with rest before it, or start from a run that has come to rest", its.position);
   }
 }
 

@@ -74,6 +74,10 @@ Outcome resume_in(input::CaseOf<Dim> input, const Options& options, std::optiona
   load_body(from->load(), from->changed() ? Elements::by_place : Elements::as_kept, body);
   auto state = new_state(body);
   load_run(from->load(), input, body, state);
+  if (from->changed()) {  // by a user's hand, which the books of energy know nothing of
+    record_motion(body, state.ledger.last);
+    state.energy.start(state.ledger);
+  }
   from.reset();  // as large as the body
   logging::set_warnings(state.warnings);
   Results<Dim> results(input, options.out, std::move(lock), state.results, head.case_name);
