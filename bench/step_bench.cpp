@@ -1,6 +1,6 @@
 // Times whole steps of one case. Prepares it, prints what there is, and then answers each line on standard input with
 // one line of JSON, so that bench/steps.py can measure other things in between. Lines: "run"; "profile" for the times
-// of the phases as well; anything else is a path, to which a frame is written.
+// of the phases as well; anything else is a path, to which a frame is written, or a checkpoint where it ends in .h5.
 //
 //     step_bench CASE POINTS THREADS
 #include <malloc.h>
@@ -56,6 +56,15 @@ void serve(const std::string& name, int points, int threads) {
                                       {"start_peak_bytes", peak() - before}}
             << std::endl;
   for (std::string line; std::getline(std::cin, line);) {
+    if (line.ends_with(".h5")) {
+      const auto times = prepared.write_checkpoint(line);
+      std::cout << nlohmann::ordered_json{{"copy_seconds", times.copy.seconds},
+                                          {"disk_seconds", times.disk.seconds},
+                                          {"bytes", times.bytes},
+                                          {"state_bytes", times.state_bytes}}
+                << std::endl;
+      continue;
+    }
     if (line != "run" && line != "profile") {
       const auto times = prepared.write_frame(line);
       std::cout << nlohmann::ordered_json{{"seconds", times.seconds}, {"cpu_seconds", times.cpu_seconds}} << std::endl;

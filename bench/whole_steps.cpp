@@ -11,8 +11,12 @@
 
 #include "ground.hpp"
 #include "scarp/base/error.hpp"
+#include "scarp/io/file.hpp"
+#include "scarp/io/hdf5.hpp"
 #include "scarp/io/vtu.hpp"
+#include "scarp/run/body_state.hpp"
 #include "scarp/run/build.hpp"
+#include "scarp/run/checkpoint.hpp"
 #include "scarp/run/fields.hpp"
 #include "scarp/run/runner.hpp"
 #include "scarp/run/stage.hpp"
@@ -34,6 +38,25 @@ Times write_frame(const Body<Dim>& body, const std::string& path) {
   return times;
 }
 
+template <int Dim>
+CheckpointTimes write_checkpoint(const Body<Dim>& body, const std::string& path) {
+  CheckpointTimes times;
+  times.state_bytes = static_cast<double>(run::size_of_state(body));
+  const Timer copy;
+  io::Hdf5Image image(run::size_of_state(body));
+  run::save_body(run::Saver(image, "scarp"), body);
+  const auto bytes = image.finish();
+  copy.read(times.copy);
+  times.bytes = static_cast<double>(bytes.size);
+  const Timer disk;
+  io::WholeFile file(path);
+  file.write(bytes.data.get(), bytes.size);
+  file.write(run::seal_of(bytes.data.get(), bytes.size));
+  file.finish();
+  disk.read(times.disk);
+  return times;
+}
+
 /// make() gives the body.
 template <class Make>
 Prepared steps_of(const Scheme& scheme, Make&& make) {
@@ -51,6 +74,7 @@ Prepared steps_of(const Scheme& scheme, Make&& make) {
   prepared.points = points;
   prepared.elements = body->fields[0].active.size();
   prepared.write_frame = [body](const std::string& path) { return write_frame(*body, path); };
+  prepared.write_checkpoint = [body](const std::string& path) { return write_checkpoint(*body, path); };
   prepared.repeat = [body, steps, points, settings](bool profile) mutable {
     settings.profile = profile;
     Repetition result;
@@ -159,6 +183,7 @@ Prepared slope_cut_failing() {
   prepared.elements = slope->body().fields[0].active.size();
   prepared.repeat = [slope](bool profile) { return slope->cut(profile); };
   prepared.write_frame = [slope](const std::string& path) { return write_frame(slope->body(), path); };
+  prepared.write_checkpoint = [slope](const std::string& path) { return write_checkpoint(slope->body(), path); };
   return prepared;
 }
 

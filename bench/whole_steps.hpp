@@ -22,11 +22,18 @@ struct Repetition : Times {
   std::array<double, phases> phase_seconds{};  ///< of each Phase, threads added up; zero unless asked for
 };
 
+/// A checkpoint: its copy, for which the run waits, and its way to the disk, for which it does not.
+struct CheckpointTimes {
+  Times copy, disk;
+  double bytes = 0, state_bytes = 0;  ///< of the file, and of the arrays of the points
+};
+
 struct Prepared {
   int points = 0, elements = 0;  ///< elements that hold points
   Times start;                   ///< from the case to the first step
   std::function<Repetition(bool profile)> repeat;
   std::function<Times(const std::string& path)> write_frame;  ///< an output frame for ParaView
+  std::function<CheckpointTimes(const std::string& path)> write_checkpoint;
 };
 
 /// Since it was made.

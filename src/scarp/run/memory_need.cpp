@@ -67,11 +67,13 @@ MemoryNeed memory_need(const input::CaseOf<Dim>& input) {
     need.addresses = elements * (2 * sizeof(int) + 1) + nodes * (2 + 2 * sizeof(double) + 2 * sizeof(int));
   }
   constexpr double of_element = Dim == 2 ? 150 : 250;  // a point's part of what a step keeps for elements, and of lists
-  const double of_point = bytes_of_point<Dim>(input.method.scheme == input::SchemeName::apic) + of_element;
+  const double of_arrays = bytes_of_point<Dim>(input.method.scheme == input::SchemeName::apic);
   for (const auto& region : input.regions) {
     const int columns = std::visit([](const auto& m) { return state_columns<sym_size<Dim>>(m); },
                                    input.materials[region.material].model);
-    need.points += expected_points(region) * (of_point + static_cast<double>(sizeof(double)) * columns);
+    const double of_state = of_arrays + static_cast<double>(sizeof(double)) * columns;
+    need.points += expected_points(region) * (of_state + of_element);
+    need.checkpoint += expected_points(region) * of_state;
   }
   return need;
 }
@@ -80,13 +82,14 @@ template <int Dim>
 void check_memory(const input::CaseOf<Dim>& input) {
   const auto need = memory_need(input);
   const auto free = free_memory();
-  const double memory = need.grid + need.points, addresses = memory + need.addresses;
+  const double memory = need.grid + need.points + need.checkpoint, addresses = memory + need.addresses;
   if (memory <= free.memory && addresses <= free.addresses) return;
   const bool is_grid = need.grid + need.addresses > need.points;
   const std::string what =
       memory > free.memory
-          ? fmt::format("{} (grid {}, points {}), where {} are free", as_bytes(memory), as_bytes(need.grid),
-                        as_bytes(need.points), as_bytes(free.memory))
+          ? fmt::format("{} (grid {}, points {}, the copy that is a checkpoint {}), where {} are free",
+                        as_bytes(memory), as_bytes(need.grid), as_bytes(need.points), as_bytes(need.checkpoint),
+                        as_bytes(free.memory))
           : fmt::format("{} of address space, where a limit of this shell or job (ulimit -v) leaves {}",
                         as_bytes(addresses), as_bytes(free.addresses));
   throw InputError(is_grid ? "the grid does not fit into memory" : "the points do not fit into memory", what,

@@ -11,9 +11,10 @@ double expected_points(const input::RegionInputOf<Dim>& region);
 
 /// [bytes]
 struct MemoryNeed {
-  double grid = 0;       ///< of the grid: its lines, and what its sides hold
-  double points = 0;     ///< of all points, with their state, and what a step keeps for their elements
-  double addresses = 0;  ///< beside these two: what only elements and nodes with soil will use of the arrays of all
+  double grid = 0;        ///< of the grid: its lines, and what its sides hold
+  double points = 0;      ///< of all points, with their state, and what a step keeps for their elements
+  double checkpoint = 0;  ///< of the copy of the state that is on its way to the disk
+  double addresses = 0;   ///< beside these: what only elements and nodes with soil will use of the arrays of all
 };
 
 /// Of a case on a grid; of one on a mesh from a file the points only, for the mesh is there when its size is known.
