@@ -41,6 +41,7 @@ faults: deps
 	cmake --build --preset release --parallel $(JOBS) --target scarp scarp_test_umats
 	/usr/bin/python3 tests/faults/faults.py $(BUILD)/bin/scarp --umat $(BUILD)/tests/umat/kinematic_f.so --json $(BUILD)/faults.json \
 	  --kills $(or $(KILLS),300) --fills $(or $(FILLS),40) --seed $(or $(SEED),1)
+	/usr/bin/python3 tests/faults/long_run.py $(BUILD)/bin/scarp --json $(BUILD)/long_run.json
 
 # STUDIES="steps plain ...": only those; tools/robustness.py --help
 robustness: build
