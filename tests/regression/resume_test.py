@@ -110,9 +110,9 @@ class Resume(ProgramTest):
         self.expect_whole("r")
 
     def test_what_cannot_be_gone_on_with(self):
-        self.refused("resume", "nosuch", parts=["nosuch"])
+        self.refused("resume", "nosuch", parts=["there is no run to go on with", "nosuch"])
         os.mkdir(self.path("empty"))
-        self.refused("resume", "empty", parts=["empty/case.toml"])
+        self.refused("resume", "empty", parts=["there is no run to go on with", "empty"])
         self.stopped()
         kept = read(self.path("r", "case.toml"))
         self.write("r/case.toml", kept.replace(b"duration = 0.2", b"duration = 0.3"))

@@ -29,7 +29,7 @@ std::string fitted_to_terminal(std::string line) {
 }  // namespace
 
 Progress::Progress(bool quiet)
-    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), shown_(start_) {}
+    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), shown_(start_), noted_(start_) {}
 
 Progress::~Progress() {
   clear();
@@ -48,15 +48,21 @@ void Progress::stage_ended(const std::string& text) {
 }
 
 void Progress::show(double time, std::int64_t point_steps, double unbalanced, double velocity) {
-  if (quiet_) return;
   const auto now = Clock::now();
-  if (seconds(now - shown_) < (terminal_ ? 0.25 : 10.0)) return;
-  shown_ = now;
+  const bool to_user = !quiet_ && seconds(now - shown_) >= (terminal_ ? 0.25 : 10.0),
+             to_log = seconds(now - noted_) >= 60;
+  if (!to_user && !to_log) return;
   const double elapsed = seconds(now - start_), share = latest_end_ > 0 ? time / latest_end_ : 1.0;
   const double left = share > 0 ? elapsed * (1 / share - 1) : 0.0;
   const auto line = fmt::format(
       "{}: t = {:.3f} s, {:.0f} %, at most {} left, {:.2f} M point-steps/s, unbalanced {:.1e}, v {:.2e} m/s", stage_,
       time, 100 * share, duration_text(left), 1e-6 * static_cast<double>(point_steps) / elapsed, unbalanced, velocity);
+  if (to_log) {
+    noted_ = now;
+    logging::note(line);
+  }
+  if (!to_user) return;
+  shown_ = now;
   if (terminal_) {
     fmt::print(stderr, "\r\033[K{}", fitted_to_terminal(line));
     open_ = true;

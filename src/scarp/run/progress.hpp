@@ -18,7 +18,8 @@ class Progress {
   void stage(const std::string& name, int index, int count, double latest_end);
   /// It ends; `text` says how.
   void stage_ended(const std::string& text);
-  /// Shows the state now and then: `time` [s], work done so far as points × steps, `velocity` the largest [m/s].
+  /// Shows the state now and then, and notes it once a minute in the log of the run: `time` [s], work done so far as
+  /// points × steps, `velocity` the largest [m/s].
   void show(double time, std::int64_t point_steps, double unbalanced, double velocity);
   /// Ends the renewed line, so that other text can follow.
   void clear();
@@ -28,7 +29,7 @@ class Progress {
   double latest_end_ = 0;
   bool quiet_, terminal_, open_ = false;
   std::string stage_;
-  Clock::time_point start_, shown_;
+  Clock::time_point start_, shown_, noted_;  ///< when it began, was last shown, and last written to the log
 };
 
 /// Seconds as "42 s", "3 min 10 s", "2 h 05 min".

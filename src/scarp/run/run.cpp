@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -129,6 +130,10 @@ Outcome resume_case(const Options& options) {
   const std::string kept = case_in(options.out);
   auto lock = std::make_unique<FolderLock>(options.out);
   auto from = latest_checkpoint(options.out, options.edited);
+  std::error_code error;
+  if (!from && !std::filesystem::exists(kept, error))
+    throw InputError("there is no run to go on with in this folder", options.out,
+                     "name the folder of a run's results, which has a case.toml and checkpoints");
   if (!from) {
     auto input = input::read_any_case(kept);
     logging::info(fmt::format("{} has no checkpoint yet: the run starts again", options.out));
