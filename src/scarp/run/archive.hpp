@@ -72,6 +72,14 @@ class Saver {
     }
   }
 
+  /// Some columns of one length, a row each.
+  void rows(const Entry& entry, std::span<const Column* const> columns) const {
+    std::vector<const double*> starts;
+    for (const Column* column : columns) starts.push_back(column->data());
+    image_.write_rows<double>(group_ + "/" + entry.key, starts, columns.empty() ? 0 : columns.front()->size(),
+                              {entry.unit, entry.meaning});
+  }
+
  private:
   template <class Columns>
   void rows(const std::string& path, const Columns& columns, const io::Note& note) const {
