@@ -1,10 +1,11 @@
 """Stops runs at random moments, fills their disk, and goes on with them: the results are those of a run that nobody disturbed.
 
-Usage: faults.py PROGRAM [--kills N] [--fills N] [--seed N] [--umat LIBRARY] [--only NAME ...] [--json FILE]
+Usage: faults.py PROGRAM [--kills N] [--scan N] [--fills N] [--seed N] [--umat LIBRARY] [--only NAME ...] [--json FILE]
 
 A run is stopped by SIGKILL, SIGTERM, SIGINT or SIGHUP after a random time, with checkpoints at random intervals, on one to three threads; so
 is what goes on with it, at random, until it is done. Frames, points.pvd and history.csv are compared byte by byte with the undisturbed
-run's, and summary.json but for wall_seconds, ns_per_point_step and threads. For the fills a run writes into a disk of memory (tmpfs, which
+run's, and summary.json but for wall_seconds, ns_per_point_step and threads. For the scan each case goes on from each of some N checkpoints,
+evenly spread, and from the end of each stage. For the fills a run writes into a disk of memory (tmpfs, which
 only root may mount; left out otherwise) that is too small by more or less: it ends with status 3 and says so, what it leaves is whole, and
 with more room it goes on. Exits with 1 where anything is wrong.
 """
@@ -115,6 +116,39 @@ class Trials:
         return [f"{' '.join(story)}: {what}" for what in differ]
 
 
+def steps_of(name):
+    """(step, whether it is the end of a stage) of a checkpoint, by its name."""
+    return int(name[-13:-3]), name.startswith("stage_")
+
+
+def scan(trials, name, count):
+    """Goes on from some checkpoints of a case. Returns (what is wrong, how many)."""
+    trials.prepare(name)
+    kept = os.path.join(trials.folder, name + ".kept")
+    shutil.rmtree(kept, ignore_errors=True)
+    with open(os.path.join(trials.folder, name + ".undisturbed", "summary.json"), encoding="utf-8") as file:
+        every = max(1, json.load(file)["steps"] // (count + 1))
+    status, error = trials.call("run", name + ".toml", "--out", name + ".kept", "--quiet", "--set",
+                                f"output.checkpoint={{ steps = {every}, keep = 100000 }}")
+    if status != 0:
+        return [f"status {status}: {error}"], 0
+    names = sorted((one for one in os.listdir(kept) if one.startswith(("checkpoint_", "stage_"))), key=steps_of)
+    wrong = []
+    for one in names:
+        out = os.path.join(trials.folder, name + ".again")
+        shutil.rmtree(out, ignore_errors=True)
+        later = {other for other in names if steps_of(other) > steps_of(one)}
+        shutil.copytree(kept, out, ignore=lambda _, inside: [other for other in inside if other in later])
+        status, error = trials.call("resume", name + ".again", "--quiet", "--threads", str(trials.random.randint(1, 3)))
+        if status != 0:
+            wrong.append(f"from {one}: status {status}: {error}")
+            continue
+        differ, compared = differences(os.path.join(trials.folder, name + ".undisturbed"), out)
+        trials.compared += compared
+        wrong += [f"from {one}: {what}" for what in differ]
+    return wrong, len(names)
+
+
 class SmallDisk:
     """A folder of its own size."""
 
@@ -190,6 +224,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("--kills", type=int, default=100)
+    parser.add_argument("--scan", type=int, default=8)
     parser.add_argument("--fills", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--umat", help="the library of tests/data/umat/kinematic.f")
@@ -208,6 +243,12 @@ def main():
             found = trials.trial(name)
             wrong += [f"{name}: {what}" for what in found]
             print(f"{name}: {found or 'the same'}", flush=True)
+        scanned = 0
+        for name in names if arguments.scan > 0 else []:
+            found, number = scan(trials, name, arguments.scan)
+            scanned += number
+            wrong += [f"{name}: {what}" for what in found]
+            print(f"{name} from {number} checkpoints: {found or 'the same'}", flush=True)
         fills = 0
         for k in range(arguments.fills):
             name = names[k % len(names)]
@@ -218,13 +259,13 @@ def main():
             fills += 1
             wrong += [f"{name}: {what}" for what in found]
             print(f"{name} on a full disk: {found or 'the same'}", flush=True)
-        figures = {"fills": fills, "stops": trials.stops, "runs": count, "cases": len(trials.undisturbed), "started_again": trials.starts_again,
+        figures = {"fills": fills, "scanned": scanned, "stops": trials.stops, "runs": count, "cases": len(trials.undisturbed), "started_again": trials.starts_again,
                    "bytes_compared": trials.compared, "minutes": (time.monotonic() - start) / 60, "wrong": wrong}
     if arguments.json:
         with open(arguments.json, "w", encoding="utf-8") as file:
             json.dump(figures, file, indent=2)
     print("\n".join(wrong))
-    print(f"{fills} full disks, {figures['stops']} stops of {count} runs of {figures['cases']} cases, {figures['bytes_compared']} bytes compared in "
+    print(f"{scanned} checkpoints gone on from, {fills} full disks, {figures['stops']} stops of {count} runs of {figures['cases']} cases, {figures['bytes_compared']} bytes compared in "
           f"{figures['minutes']:.1f} min: {len(wrong)} differences")
     sys.exit(1 if wrong else 0)
 

@@ -37,8 +37,6 @@ void WholeFile::finish() {
     std::remove(temporary_.c_str());
     fail(reason);
   }
-  const auto slash = path_.rfind('/');
-  sync_folder(slash == path_.npos ? "." : path_.substr(0, slash + 1));
 }
 
 void WholeFile::fail(int reason) {

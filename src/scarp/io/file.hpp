@@ -11,8 +11,8 @@
 namespace scarp::io {
 
 /// A file that is there under its name once it is whole: written piece by piece to a temporary file beside `path`,
-/// which finish() renames when all of it is on the disk. Without finish(), and where it fails, an older file at `path`
-/// stays untouched. Throws RunError with the reason.
+/// which finish() renames when all of it is on the disk; the new name is there too after the next sync_folder().
+/// Without finish(), and where it fails, an older file at `path` stays untouched. Throws RunError with the reason.
 class WholeFile {
  public:
   explicit WholeFile(const std::string& path);

@@ -57,6 +57,7 @@ void CheckpointWriter::bring_to_disk(const std::string& name, const io::Bytes& b
   file.write(bytes.data.get(), bytes.size);
   file.write(seal_of(bytes.data.get(), bytes.size));
   file.finish();
+  io::sync_folder(folder_);  // with the names of the frames that it counts on
 }
 
 void CheckpointWriter::remove_old() const {
