@@ -3,13 +3,14 @@ BUILD := build
 JOBS := $(shell nproc)
 RESULTS := results/slope_cut
 
-.PHONY: help demo test validate faults robustness build bench bench-kernels bench-scaling bench-programs package figures deps format clean
+.PHONY: help demo test validate faults fuzz robustness build bench bench-kernels bench-scaling bench-programs package figures deps format clean
 
 help:
 	@echo "make demo     cut a slope of structured clay and draw what happens, in $(RESULTS)"
 	@echo "make test     build and run all tests"
 	@echo "make validate  run the verification problems on more meshes and draw them (minutes)"
 	@echo "make faults   stop runs at random moments and fill their disks, and compare with undisturbed ones (minutes)"
+	@echo "make fuzz     feed spoilt files to every reader, TIME=600 seconds each"
 	@echo "make robustness  run slopes and columns at many settings: what results depend on (45 minutes)"
 	@echo "make bench    measure whole steps, in $(BUILD)/bench.json; make bench-kernels their parts"
 	@echo "make build    build the program, $(BUILD)/bin/scarp"
@@ -42,6 +43,12 @@ faults: deps
 	/usr/bin/python3 tests/faults/faults.py $(BUILD)/bin/scarp --umat $(BUILD)/tests/umat/kinematic_f.so --json $(BUILD)/faults.json \
 	  --kills $(or $(KILLS),300) --fills $(or $(FILLS),40) --seed $(or $(SEED),1)
 	/usr/bin/python3 tests/faults/long_run.py $(BUILD)/bin/scarp --json $(BUILD)/long_run.json
+
+# TIME=600 seconds for each reader; READERS="case lab gmsh stl csv"
+fuzz: deps
+	cmake -S . -B build-fuzz -DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_BUILD_TYPE=Release -DSCARP_FUZZ=ON
+	cmake --build build-fuzz --parallel $(JOBS) --target fuzz
+	/usr/bin/python3 tests/fuzz/fuzz.py build-fuzz --time $(or $(TIME),600) --jobs $(JOBS) $(READERS)
 
 # STUDIES="steps plain ...": only those; tools/robustness.py --help
 robustness: build

@@ -36,6 +36,13 @@ if(SCARP_SANITIZE)
   target_compile_options(scarp_options INTERFACE -O1 -g1 -fno-var-tracking)
   target_link_options(scarp_options INTERFACE -fsanitize=address,undefined)
 endif()
+if(SCARP_FUZZ)
+  list(APPEND fuzz_sanitizers fuzzer-no-link ${SCARP_FUZZ_SANITIZE})
+  list(JOIN fuzz_sanitizers "," fuzz_sanitizers)
+  target_compile_options(scarp_options INTERFACE -fsanitize=${fuzz_sanitizers} -fno-sanitize-recover=all -O1 -g1)
+  string(REPLACE "fuzzer-no-link" "fuzzer" fuzz_sanitizers "${fuzz_sanitizers}")
+  set(SCARP_FUZZ_LINK -fsanitize=${fuzz_sanitizers})
+endif()
 
 # scarp_folder(NAME [SOURCES ...] [DEPENDS folder ...] [LINK target ...]): one target for one folder of src/scarp.
 # DEPENDS names other folders, along the arrows of the architecture; LINK names libraries from outside, HEADERS those

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <limits>
 
@@ -50,7 +51,10 @@ std::string as_bytes(double bytes) {
     bytes /= 1000;
     ++unit;
   }
-  return fmt::format("{:.2g} {}", bytes, units[unit]);
+  if (!(bytes < 1e6)) return "more than 10^21 bytes";
+  const double tens = bytes < 99.5 ? 1 : 10;  // two digits, and no exponent
+  return bytes < 9.95 ? fmt::format("{:.2g} {}", bytes, units[unit])
+                      : fmt::format("{:.0f} {}", tens * std::round(bytes / tens), units[unit]);
 }
 
 }  // namespace scarp

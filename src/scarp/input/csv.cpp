@@ -64,7 +64,11 @@ std::vector<std::size_t> places(const std::vector<Cell>& header, const std::vect
 std::vector<std::vector<double>> read_columns(const std::string& path, const std::vector<std::string>& names) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError("the file cannot be read", path, "check the name and that you may read it");
-  std::string text(std::istreambuf_iterator<char>(stream), {});
+  return parse_columns(path, std::string(std::istreambuf_iterator<char>(stream), {}), names);
+}
+
+std::vector<std::vector<double>> parse_columns(const std::string& path, std::string text,
+                                               const std::vector<std::string>& names) {
   drop_byte_order_mark(text, path);
   std::istringstream file(std::move(text));
   std::vector<std::vector<double>> rows;
@@ -93,7 +97,8 @@ std::vector<std::vector<double>> read_columns(const std::string& path, const std
     }
     rows.push_back(std::move(row));
   }
-  if (rows.empty()) throw InputError("the file has no rows", path, fmt::format("give {}", fmt::join(names, ",")));
+  if (rows.empty())
+    throw InputError("the file has no rows", "", fmt::format("give {}", fmt::join(names, ",")), {path, 0, 0});
   return rows;
 }
 

@@ -12,4 +12,8 @@ namespace scarp::input {
 /// without rows.
 std::vector<std::vector<double>> read_columns(const std::string& path, const std::vector<std::string>& names);
 
+/// The same from the text of such a file; `name` stands for it in errors.
+std::vector<std::vector<double>> parse_columns(const std::string& name, std::string text,
+                                               const std::vector<std::string>& names);
+
 }  // namespace scarp::input

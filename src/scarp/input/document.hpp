@@ -25,8 +25,10 @@ struct Node {
   bool is_list() const { return std::holds_alternative<List>(value); }
 };
 
-/// What a node holds, for messages: "the number 0.7", "the text \"clay\"", "a list", "a table", "true".
+/// What a node holds, for messages: "the number 0.7", "the text \"clay\"", "a list of 3 items", "a table", "true".
 std::string describe(const Node& node);
+/// "1 item", "3 items".
+std::string count_of_items(std::size_t count);
 
 /// Parses a file. Throws InputError for a file that cannot be read, and with line and column for one that is not TOML.
 Node parse_file(const std::string& path);

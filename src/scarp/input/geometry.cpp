@@ -123,7 +123,11 @@ std::string read_file_name(const Node& node, const std::string& key, const std::
                            const std::string& case_path) {
   const auto file = resolved(text_in(node, key), case_path);
   std::error_code none;  // a name that no file can have is a file that is not there
-  if (std::filesystem::exists(file, none)) return file;
+  if (std::filesystem::is_regular_file(file, none)) return file;
+  if (std::filesystem::exists(file, none))
+    throw InputError(fmt::format("{} is a file", kind),
+                     file + (std::filesystem::is_directory(file, none) ? ", a folder" : ", which is none"),
+                     "name the file itself", node.position);
   throw InputError(fmt::format("{} file is not there", kind), file, "names are relative to the case file's folder",
                    node.position);
 }

@@ -212,8 +212,12 @@ void read_initial_state(const Node& node, lab::Test& test) {
 }  // namespace
 
 LabTest read_lab_test(const std::string& path, const std::vector<std::string>& overrides) {
-  Node document = parse_file(path);
-  for (const auto& text : overrides) apply_override(document, text);
+  return parse_lab_test(path, read_text(path), overrides);
+}
+
+LabTest parse_lab_test(const std::string& path, const std::string& text, const std::vector<std::string>& overrides) {
+  Node document = parse_text(text, path);
+  for (const auto& change : overrides) apply_override(document, change);
   document.position = {path, 0, 0};
   Table table(document, "the test");
   const std::string title = table.text_or("title", path);

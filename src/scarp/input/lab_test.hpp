@@ -18,4 +18,8 @@ struct LabTest {
 /// file, line and column for the first thing wrong.
 LabTest read_lab_test(const std::string& path, const std::vector<std::string>& overrides = {});
 
+/// The same from the text of a test; `path` stands for its file in errors, and strains are sought from its folder.
+LabTest parse_lab_test(const std::string& path, const std::string& text,
+                       const std::vector<std::string>& overrides = {});
+
 }  // namespace scarp::input

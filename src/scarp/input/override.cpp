@@ -133,11 +133,16 @@ void apply_override(Node& document, const std::string& text) {
   }
 }
 
+std::string count_of_items(std::size_t count) {
+  return fmt::format("{} item{}", count, count == 1 ? "" : "s");
+}
+
 std::string describe(const Node& node) {
   if (const auto* truth = std::get_if<bool>(&node.value)) return *truth ? "true" : "false";
   if (const auto* number = std::get_if<double>(&node.value)) return fmt::format("the number {}", *number);
   if (const auto* text = std::get_if<std::string>(&node.value)) return fmt::format("the text \"{}\"", *text);
-  return node.is_list() ? "a list" : "a table";
+  const auto* list = std::get_if<List>(&node.value);
+  return !list ? "a table" : list->empty() ? "an empty list" : "a list of " + count_of_items(list->size());
 }
 
 }  // namespace scarp::input

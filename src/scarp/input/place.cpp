@@ -99,7 +99,7 @@ BoxOf<3> read_box(const Node& node) {
   const auto* corners = std::get_if<List>(&node.value);
   if (!corners || corners->size() != 2)
     throw InputError("box is a list of two opposite corners [x, y, z]",
-                     corners ? fmt::format("{} items", corners->size()) : describe(node),
+                     corners ? count_of_items(corners->size()) : describe(node),
                      "write box = [[0.0, 0.0, 0.0], [45.0, 20.0, 5.0]], for instance", node.position);
   BoxOf<3> box{vector_in<3>((*corners)[0], "a corner"), vector_in<3>((*corners)[1], "a corner")};
   for (int j = 0; j < 3; ++j) {

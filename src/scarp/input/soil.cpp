@@ -27,7 +27,8 @@ std::string capitals(std::string text) {
 
 /// The description of the model called `name`; empty where there is none.
 ModelDescription description_of_kind(const std::string& name) {
-  for (auto& description : model_descriptions()) {
+  static const auto all = model_descriptions();
+  for (const auto& description : all) {
     if (description.name == name) return description;
   }
   return {};
@@ -94,6 +95,11 @@ Values read_initial(Table& table, const AnyModel& model, std::map<std::string, P
 
 namespace {
 
+bool has_constant(const ModelDescription& model, const std::string& key) {
+  return std::any_of(model.parameters.begin(), model.parameters.end(),
+                     [&](const auto& info) { return info.key == key; });
+}
+
 /// A key in a material that another table, or another model, has.
 void refuse_misplaced(const ModelDescription& model, const std::string& key, const Node& node) {
   const auto is_key = [&](const auto& info) { return info.key == key; };
@@ -127,6 +133,9 @@ AnyModel read_law(Table& table, const std::string& file) {
     }
     // Its bounds are the model's; make_model() checks that it is finite, too.
     const auto* number = std::get_if<double>(&item->value);
+    if (!number && !description.name.empty() && !has_constant(description, key))
+      throw InputError(fmt::format("the model {} has no constant {}", model_name, key), describe(*item),
+                       fmt::format("`scarp models {}` lists its constants", model_name), item->position);
     if (!number)
       throw InputError(fmt::format("{} is a number", key), describe(*item), "write a number, without quotes",
                        item->position);

@@ -44,8 +44,8 @@ std::vector<double> numbers_in(const Node& node, const std::string& name, std::s
   if (!list || (count > 0 && list->size() != count)) {
     throw InputError(count > 0 ? fmt::format("{} is a list of {} numbers", name, count)
                                : fmt::format("{} is a list of numbers", name),
-                     list ? fmt::format("{} items", list->size()) : describe(node),
-                     "write the numbers in brackets, with commas", node.position);
+                     list ? count_of_items(list->size()) : describe(node), "write the numbers in brackets, with commas",
+                     node.position);
   }
   std::vector<double> numbers;
   for (const auto& item : *list) numbers.push_back(number_in(item, name, any_number));

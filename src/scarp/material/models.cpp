@@ -81,10 +81,10 @@ std::map<std::string, double> checked(const ModelDescription& model, const std::
     }
     if (!within(info, found->second)) {
       const bool finite = std::isfinite(found->second);
-      problems.push_back({info.key,
-                          fmt::format("{} must satisfy {}", info.key, finite ? bounds_text(info) : "being finite"),
-                          fmt::format("{}", found->second),
-                          fmt::format("choose {} ({}: {})", range_remedy(info), info.symbol, info.meaning)});
+      problems.push_back(
+          {info.key, finite ? fmt::format("{} must satisfy {}", info.key, bounds_text(info)) : info.key + " is finite",
+           fmt::format("{}", found->second),
+           fmt::format("choose {} ({}: {})", range_remedy(info), info.symbol, info.meaning)});
     }
     full[info.key] = found->second;
   }
@@ -161,7 +161,7 @@ ModelResult make_model(const std::string& name, const std::map<std::string, doub
   bool known = false;
   for_each_model([&](auto model) {
     using Model = typename decltype(model)::type;
-    const auto description = Model::description();
+    static const auto description = Model::description();
     names.push_back(description.name);
     if (description.name != name) return;
     known = true;

@@ -84,11 +84,13 @@ void check_memory(const input::CaseOf<Dim>& input) {
   const auto free = free_memory();
   const double memory = need.grid + need.points + need.checkpoint, addresses = memory + need.addresses;
   if (memory <= free.memory && addresses <= free.addresses) return;
+  double count = 0;
+  for (const auto& region : input.regions) count += expected_points(region);
   const bool is_grid = need.grid + need.addresses > need.points;
   const std::string what =
       memory > free.memory
-          ? fmt::format("{} (grid {}, points {}, the copy that is a checkpoint {}), where {} are free",
-                        as_bytes(memory), as_bytes(need.grid), as_bytes(need.points), as_bytes(need.checkpoint),
+          ? fmt::format("{} (grid {}, about {:.3g} points {}, the copy that is a checkpoint {}), where {} are free",
+                        as_bytes(memory), as_bytes(need.grid), count, as_bytes(need.points), as_bytes(need.checkpoint),
                         as_bytes(free.memory))
           : fmt::format("{} of address space, where a limit of this shell or job (ulimit -v) leaves {}",
                         as_bytes(addresses), as_bytes(free.addresses));

@@ -104,7 +104,7 @@ TEST(LabTests, BadOnes) {
       {"gamma = [0.01, -0.02]", "@gamma = 0.01", "has its two limits", "0.01", "gamma = ["},
       {"stop = { u = 50.0 }", "stop = { @w = 50.0 }", "a column of the curve", "w", "sig_xx"},
       {"increments = 7", "@increments = 0", "increments", "0", "bounds"},
-      {"b = [0.0, 0.0, 0.001, 0.0, 0.0, 3.0]", "@b = [0.0]", "b is a list of 6 numbers", "1 items", "commas"},
+      {"b = [0.0, 0.0, 0.001, 0.0, 0.0, 3.0]", "@b = [0.0]", "b is a list of 6 numbers", "1 item", "commas"},
       {"[0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 1]]", "[0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0]]", "says something", "row 6",
        "give it a strain or a stress", "[0, 0, 0, 0, 0, 0]]\nS"},
       {"duration = 10.0", "@duration = -1.0", "duration must satisfy", "-1", "bounds"},
