@@ -105,11 +105,8 @@ double power_of_nodes(Body<2>& body) {
   advance(body, 0, {});
   double power = 0;
   for (int k = 0; k < body.fields[0].assembly.size(); ++k) {
-    std::array<double, transfer::node_sums<2>> sum{};  // m, p, F_int
-    body.fields[0].assembly.gather(k, [&](int place) {
-      for (int q = 0; q < transfer::node_sums<2>; ++q)
-        sum[q] += body.fields[0].buffers.sums[static_cast<std::size_t>(place) * transfer::node_sums<2> + q];
-    });
+    const auto at = static_cast<std::size_t>(body.fields[0].assembly.first_accumulator(k));
+    const double* sum = body.fields[0].buffers.sums.data() + at * transfer::node_sums<2>;  // m, p, F_int
     if (sum[0] < body.fields[0].least_mass) continue;
     for (int j = 0; j < 2; ++j) power += sum[3 + j] * sum[1 + j] / sum[0];
   }

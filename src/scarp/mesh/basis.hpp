@@ -20,6 +20,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <concepts>
 
 #include "scarp/mesh/grid_bases.hpp"
@@ -32,16 +33,29 @@ namespace scarp {
 
 namespace detail {
 
+/// a b − c d. Of single numbers with the first product in one rounding with the difference where the processor has
+/// that: a compiler fuses either, in one sweep the one and in another the other, and an element would have two
+/// determinants.
+template <class T>
+inline T difference_of_products(const T& a, const T& b, const T& c, const T& d) {
+#if defined(__FMA__)
+  if constexpr (std::is_same_v<T, double>) return std::fma(a, b, -(c * d));
+#endif
+  return a * b - c * d;
+}
+
 /// Inverse of the matrix J[j][k] = dx_j/dξ_k; returns det J.
 template <class T>
 inline T inverse(const std::array<std::array<T, 2>, 2>& J, std::array<std::array<T, 2>, 2>& I) {
-  const T det = J[0][0] * J[1][1] - J[0][1] * J[1][0], r = T(1.0) / det;
+  const T det = difference_of_products(J[0][0], J[1][1], J[0][1], J[1][0]), r = T(1.0) / det;
   I = {{{J[1][1] * r, -(J[0][1] * r)}, {-(J[1][0] * r), J[0][0] * r}}};
   return det;
 }
 template <class T>
 inline T inverse(const std::array<std::array<T, 3>, 3>& J, std::array<std::array<T, 3>, 3>& I) {
-  const auto minor = [&](int a, int b, int c, int d) { return J[a][c] * J[b][d] - J[a][d] * J[b][c]; };
+  const auto minor = [&](int a, int b, int c, int d) {
+    return difference_of_products(J[a][c], J[b][d], J[a][d], J[b][c]);
+  };
   const T x = minor(1, 2, 1, 2), y = minor(1, 2, 2, 0), z = minor(1, 2, 0, 1);
   const T det = J[0][0] * x + J[0][1] * y + J[0][2] * z, r = T(1.0) / det;
   I = {{{x * r, minor(2, 0, 1, 2) * r, minor(0, 1, 1, 2) * r},
@@ -66,7 +80,7 @@ struct Simplex {
 
   class Cell {
    public:
-    Cell(const Mesh<Dim>& mesh, int e) {
+    [[gnu::always_inline]] Cell(const Mesh<Dim>& mesh, int e) {
       const auto n = mesh.element_nodes(e);
       low_ = mesh.node(n[0]);
       std::array<Vec<Dim>, Dim> J;

@@ -75,7 +75,11 @@ void sort_by_slot(Block<Dim>& block, ActiveElements& active) {
   for (int i = 0; i < block.size(); ++i) {
     const int slot = active.slot[element[i]], first = begin[slot];
     int at = end[slot]++;
-    for (; at > first && id[order[at - 1]] > id[i]; --at) order[at] = order[at - 1];
+    // One question whose answer is no for nearly all: whether a point is the first of its element is none to guess.
+    const int last = order[std::max(at - 1, 0)], before = at > first ? last : i;
+    if (id[before] > id[i]) [[unlikely]] {
+      for (; at > first && id[order[at - 1]] > id[i]; --at) order[at] = order[at - 1];
+    }
     order[at] = i;
   }
 }

@@ -24,6 +24,16 @@ void for_each_chunk(const VelocityField<Dim>& field, std::vector<BodyTotals<Dim>
   });
 }
 
+/// Step 2, once all elements have added to their accumulators: the sums of the nodes, n numbers each, over those of all
+/// chunks, and of the other processes.
+template <int n, int Dim>
+void gather(VelocityField<Dim>& field, Column& numbers) {
+  field.halo.start(numbers, n);
+  field.halo.finish(numbers);
+  const exec::Assembly& assembly = field.assembly;
+  exec::for_each_piece(assembly.chunks(), [&](int c) { assembly.gather_chunk<n>(c, numbers.data()); });
+}
+
 /// A count of the step so far, of a field in this process.
 template <int Dim>
 std::int64_t counted(const VelocityField<Dim>& field, std::int64_t StepTotals<Dim>::*count) {

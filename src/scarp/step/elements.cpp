@@ -288,8 +288,7 @@ void map_points_to_elements(Body<Dim>& body, VelocityField<Dim>& field, const St
     part.kinetic_energy_before = 0.5 * xsimd::hadd(m_v2);
   });
   if (uses_patches(body, settings)) add_mean_stresses(body, field);
-  field.halo.start(field.buffers.sums, transfer::node_sums<Dim>);
-  field.halo.finish(field.buffers.sums);
+  gather<transfer::node_sums<Dim>>(field, field.buffers.sums);
 }
 
 template <int n, int Dim>
@@ -317,8 +316,7 @@ void sum_with_mass_matrix(Body<Dim>& body, VelocityField<Dim>& field, int from) 
       }
     });
   });
-  field.halo.start(field.buffers.momentum, transfer::accumulator_size<n>);
-  field.halo.finish(field.buffers.momentum);
+  gather<transfer::accumulator_size<n>>(field, field.buffers.momentum);
 }
 
 template <int Dim>

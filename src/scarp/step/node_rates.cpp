@@ -54,8 +54,7 @@ void bound_by_nodes(Body<Dim>& body, VelocityField<Dim>& field, Bounded which) {
       add_stiffness<Basis>(cell, bounds.filled[slot], field.assembly.accumulators_of(slot), momentum.data());
     });
   });
-  field.halo.start(momentum, 1);
-  field.halo.finish(momentum);
+  gather<1>(field, momentum);
   for_each_chunk(field, [&](const exec::Chunk& chunk) {
     for (int k = chunk.nodes.first; k < chunk.nodes.last; ++k)
       bounds.stiffness[k] = 0.5 * gathered<1>(field, k, momentum)[0] * field.nodes.node[k].per_mass;

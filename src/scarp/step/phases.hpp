@@ -1,6 +1,7 @@
 // The parts of a step, in the order of step.cpp. Not for use outside step/.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -8,15 +9,13 @@
 
 namespace scarp::step {
 
-/// Step 2: the sum over the accumulators of active node k, n numbers each.
+/// The sum at active node k, n numbers, that gather() has left.
 template <int n, int Dim>
 std::array<double, n> gathered(const VelocityField<Dim>& field, int k, const Column& numbers) {
-  std::array<double, n> sum{};
-  field.assembly.gather(k, [&](int accumulator) {
-    const double* part = numbers.data() + static_cast<std::size_t>(accumulator) * n;
-    for (int q = 0; q < n; ++q) sum[q] += part[q];
-  });
-  return sum;
+  const double* sum = numbers.data() + static_cast<std::size_t>(field.assembly.first_accumulator(k)) * n;
+  std::array<double, n> copy;
+  std::copy_n(sum, n, copy.begin());
+  return copy;
 }
 
 /// Step 2: what active node k has from step 1.

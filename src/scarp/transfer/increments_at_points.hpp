@@ -82,13 +82,17 @@ class IncrementsAtPoints {
   const Field<Basis, 2 * Dim>& motion() const { return motion_; }
   double per_size2() const { return per_size2_; }
 
-  /// Of the points in some lanes, at `local`, where the motion is `here`, to the places `at` on of `increments`;
-  /// volumes go to `volume`. With `averaged` the volume strain is a mean of the element. All but the speed, which is no
-  /// matter of du_i.
-  template <class Lanes, class Local, class Here, class Averaged>
-  void store(const Points<Dim>& points, const Lanes& p, const Local& local, const Here& here, Averaged averaged,
-             Column& volume, PointIncrements<Dim>& increments, int at) const {
-    auto g = gradients_at<Basis>(element_, corrected_, motion_, here, local, p.load(points.x[0]));
+  /// L dt of the points in some lanes, at `local`, where the motion is `here`.
+  template <class Lanes, class Local, class Here>
+  Gradients<T, Dim> gradients(const Points<Dim>& points, const Lanes& p, const Local& local, const Here& here) const {
+    return gradients_at<Basis>(element_, corrected_, motion_, here, local, p.load(points.x[0]));
+  }
+
+  /// Of these points, of mass m, to the places `at` on of `increments`; volumes go to `volume`. With `averaged` the
+  /// volume strain is a mean of the element. All but the speed, which is no matter of du_i.
+  template <class Lanes, class Local, class Averaged>
+  void store(Gradients<T, Dim> g, const Points<Dim>& points, const Lanes& p, const T& m, const Local& local,
+             Averaged averaged, Column& volume, PointIncrements<Dim>& increments, int at) const {
     if (averaged) {
       T more = (T(element_.mean_dilation) - g.trace()) * T(1.0 / mean_directions<Basis>);
       if constexpr (keeps_means<Basis>) more *= share_of_mean<Basis>(local);
@@ -106,7 +110,7 @@ class IncrementsAtPoints {
       store_increments(strain_and_spin_of(g.L, g.hoop), increments, at);
     }
     (T(element_.weight) * Omega * (T(1.0) - T(0.5) * dilation)).store_unaligned(increments.volume.data() + at);
-    T per_mass = T(stiffer_) * Omega / p.load(points.mass);
+    T per_mass = T(stiffer_) * Omega / m;
     if constexpr (is_simplex<Basis>) per_mass = max(per_mass, T(element_.least_per_mass));
     per_mass.store_unaligned(increments.per_mass.data() + at);
   }

@@ -30,10 +30,9 @@ struct MotionRules {
 /// x_p += Σ du_i N_i; the displacement of eq. 18 is x_p less x_p at the start. `flip_change(j)` is the change of
 /// velocity of pure FLIP, of which `pic` books what PIC takes. Returns |v_p|², and sets x to the places.
 template <bool pic, int Dim, class Lanes, class Here, class FlipChange, class Places>
-inline PointBatch<Dim> move(Points<Dim>& points, const Lanes& p, const MotionRules& rules, const Here& here,
-                            FlipChange&& flip_change, Places& x, MotionSums<Dim>& sums) {
+inline PointBatch<Dim> move(Points<Dim>& points, const Lanes& p, const PointBatch<Dim>& m, const MotionRules& rules,
+                            const Here& here, FlipChange&& flip_change, Places& x, MotionSums<Dim>& sums) {
   using T = PointBatch<Dim>;
-  const T m = p.load(points.mass);
   T v2(0.0);
   repeat<Dim>([&](auto j) {
     const T v_t = p.load(points.v[j]), v = fma(T(rules.flip), v_t, here.value(j));  // eq. 6
@@ -76,10 +75,12 @@ inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotio
   for_each_batch_of_element<T>(range, [&](const auto& p, int first) {
     const auto local = local_coordinates<Basis>(cell, points, p);
     const auto here = of_element.motion().at(local);
-    of_element.store(points, p, local, here, averaged, points.volume, increments, at + first);
+    const T m = p.load(points.mass);
+    const auto gradients = of_element.gradients(points, p, local, here);
     std::array<T, Dim> x;
     const auto flip_change = [&](int j) { return change.at(local).value(j); };
-    const T v2 = move<pic>(points, p, rules, here, flip_change, x, sums);
+    const T v2 = move<pic>(points, p, m, rules, here, flip_change, x, sums);
+    of_element.store(gradients, points, p, m, local, averaged, points.volume, increments, at + first);
     (T(of_element.per_size2()) * v2).store_unaligned(increments.speed2.data() + at + first);
     moved(p, x, here);
   });
