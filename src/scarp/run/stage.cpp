@@ -102,14 +102,14 @@ void check_energy(const Context<Dim>& context, bool& said) {
 /// One step of the body; an error tells when it came. The ledger's time is then that of the failed step, for its state
 /// is what the last frame shows.
 template <int Dim>
-StepTotals<Dim> step(Context<Dim>& context, double dt, const StepSettings& settings) {
+StepTotals<Dim> step(Context<Dim>& context, const std::string& stage, double dt, const StepSettings& settings) {
   try {
     return advance(context.body, dt, settings);
   } catch (const RunError& error) {
     context.ledger.time += dt;
-    throw RunError(
-        fmt::format("{} at t = {:.6g} s, step {}", error.problem(), context.ledger.time, context.ledger.steps + 1),
-        error.value(), error.remedy());
+    throw RunError(fmt::format("{} at t = {:.6g} s, step {}, in stage \"{}\"", error.problem(), context.ledger.time,
+                               context.ledger.steps + 1, stage),
+                   error.value(), error.remedy());
   }
 }
 
@@ -235,7 +235,7 @@ void run_stage(Context<Dim>& context, int index, StageRecord& record) {
     const double next_lift = removal ? removal->next_time() : end;
     const double until = std::min({end, frames.next(), next_lift}) - ledger.time;
     const double dt = fitted(stable_time_step(context, critical), until);
-    const auto totals = step(context, dt, settings);
+    const auto totals = step(context, stage.name, dt, settings);
     ledger.add(dt, body.point_count(), totals);
     energy.step(ledger);
     if (end - ledger.time < 1e-9 * dt) ledger.time = end;
