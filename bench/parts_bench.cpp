@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <random>
@@ -13,6 +14,7 @@
 #include "scarp/exec/arrange.hpp"
 #include "scarp/mesh/chunks.hpp"
 #include "scarp/run/build.hpp"
+#include "scarp/step/soundness.hpp"
 #include "scarp/step/step.hpp"
 
 namespace scarp::bench {
@@ -101,6 +103,30 @@ void order(benchmark::State& loop, bool arrange) {
   set_time_per_point(loop, body.point_count());
 }
 
+/// What is looked at after each step, and the look at all points every few hundred steps, as shares of a step of the
+/// Q4 grid [%].
+void checks(benchmark::State& loop) {
+  Body<2> body = make_ground<Ground::q4>();
+  compress(body, 0.01);
+  const StepSettings settings;
+  using Clock = std::chrono::steady_clock;
+  Clock::duration steps{}, looks{};
+  const int every = static_cast<int>(loop.range(0));
+  const auto totals = advance(body, 1e-5, settings);
+  for (auto _ : loop) {
+    const auto start = Clock::now();
+    benchmark::DoNotOptimize(advance(body, 1e-5, settings));
+    const auto between = Clock::now();
+    body.fields[0].buffers.steps_since_look = every > 1 ? step::look_every : 0;
+    step::refuse_nonsense(body, 1e-5, totals);
+    looks += Clock::now() - between;
+    steps += between - start;
+  }
+  loop.counters["percent"] = 100.0 / every * static_cast<double>(looks.count()) / static_cast<double>(steps.count());
+}
+
+BENCHMARK(checks)->Name("checks/each_step")->Arg(1);
+BENCHMARK(checks)->Name("checks/all_points")->Arg(step::look_every);
 BENCHMARK(phases_of_step<Ground::q4>)->Name("step/q4");
 BENCHMARK(phases_of_step<Ground::b_spline>)->Name("step/b_spline");
 BENCHMARK(phases_of_step<Ground::mesh>)->Name("step/mesh");

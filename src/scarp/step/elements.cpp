@@ -125,6 +125,7 @@ void record(const transfer::MotionSums<Dim>& sums, StepTotals<Dim>& totals) {
   double fastest2 = 0;
   for (std::size_t l = 0; l < sums.fastest2.size; ++l) fastest2 = std::max(fastest2, sums.fastest2.get(l));
   totals.max_velocity = std::max(totals.max_velocity, std::sqrt(fastest2));
+  totals.chunks_without_volume += xsimd::any(sums.no_volume);
 }
 
 /// Which of a few points, at x now, are still in their element, as bits of lanes; the local coordinates of these are

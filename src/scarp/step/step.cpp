@@ -15,6 +15,7 @@
 #include "scarp/step/patches.hpp"
 #include "scarp/step/phases.hpp"
 #include "scarp/step/reweighted.hpp"
+#include "scarp/step/soundness.hpp"
 
 namespace scarp {
 namespace {
@@ -89,9 +90,11 @@ template <int Dim>
 void order_points(Body<Dim>& body, const StepSettings& settings) {
   for (auto& field : body.fields) {
     if (field.changed_element == 0) continue;
+    const bool some_left = step::counted(field, &StepTotals<Dim>::left_mesh) > 0;
+    if (some_left) step::refuse_nowhere(field);
     step::find_changed_elements(body, field);
     step::record_energy_of_changed_elements(body, field, settings, -1);
-    if (step::counted(field, &StepTotals<Dim>::left_mesh) > 0) {
+    if (some_left) {
       if (!settings.remove_leaving) refuse_to_lose(field);
       remove_lost(field);
     }
@@ -199,7 +202,9 @@ StepTotals<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings
   }
   timed(P::order, [&] { order_points(body, settings); });  // 11
   if (step::softens_over_length(body)) timed(P::averages, [&] { step::average_softening(body, dt); });
-  return step::close_totals(body, dt, settings);
+  const auto totals = step::close_totals(body, dt, settings);
+  step::refuse_nonsense(body, dt, totals);
+  return totals;
 }
 
 namespace {

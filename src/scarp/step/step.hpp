@@ -21,7 +21,8 @@ struct StepSettings {
   bool profile = false;         ///< book the time of each Phase
 };
 
-/// Advances the body by dt. Throws RunError where a point leaves the mesh (unless it is to be removed).
+/// Advances the body by dt. Throws RunError where a point leaves the mesh (unless it is to be removed), and where what
+/// the step leaves is no motion of soil (step/soundness.hpp).
 template <int Dim>
 StepTotals<Dim> advance(Body<Dim>& body, double dt, const StepSettings& settings);
 

@@ -10,7 +10,8 @@ namespace scarp {
 template <int Dim>
 void StepTotals<Dim>::add_counts(const StepTotals& other) {
   using B = StepTotals;
-  for (std::int64_t B::*count : {&B::removed, &B::massless_nodes, &B::changed_element, &B::left_mesh})
+  for (std::int64_t B::*count :
+       {&B::removed, &B::massless_nodes, &B::changed_element, &B::left_mesh, &B::chunks_without_volume})
     this->*count += other.*count;
   for (int i = 0; i < phases; ++i) seconds[i] += other.seconds[i];
   max_velocity = std::max(max_velocity, other.max_velocity);
@@ -36,6 +37,7 @@ void share(StepTotals<Dim>& totals, std::span<ExactSum> sums) {
                            &totals.massless_nodes,
                            &totals.changed_element,
                            &totals.left_mesh,
+                           &totals.chunks_without_volume,
                            &stress.substeps,
                            &stress.failures,
                            &stress.corrected,

@@ -32,6 +32,7 @@ struct StepTotals : Energies {
   std::int64_t removed = 0;
   std::int64_t massless_nodes = 0;                  ///< active nodes that no point has a share in
   std::int64_t changed_element = 0, left_mesh = 0;  ///< points that did
+  std::int64_t chunks_without_volume = 0;           ///< with a point whose volume is not positive any more
   exec::StressTotals stress;
   SearchCounts search;
   std::array<double, phases> seconds{};  ///< of each Phase, threads added up; only where asked for

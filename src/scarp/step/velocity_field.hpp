@@ -112,6 +112,7 @@ struct Buffers {
   // Elements whose quadrature changes with the points that do (reweighted.hpp), and which of all these are.
   std::vector<int> changed;
   ZeroPages<std::uint8_t> is_changed;
+  int steps_since_look = 0;  ///< at all points (soundness.hpp)
 };
 
 template <int Dim>

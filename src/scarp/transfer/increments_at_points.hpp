@@ -89,10 +89,10 @@ class IncrementsAtPoints {
   }
 
   /// Of these points, of mass m, to the places `at` on of `increments`; volumes go to `volume`. With `averaged` the
-  /// volume strain is a mean of the element. All but the speed, which is no matter of du_i.
+  /// volume strain is a mean of the element. All but the speed, which is no matter of du_i. Returns the volumes.
   template <class Lanes, class Local, class Averaged>
-  void store(Gradients<T, Dim> g, const Points<Dim>& points, const Lanes& p, const T& m, const Local& local,
-             Averaged averaged, Column& volume, PointIncrements<Dim>& increments, int at) const {
+  T store(Gradients<T, Dim> g, const Points<Dim>& points, const Lanes& p, const T& m, const Local& local,
+          Averaged averaged, Column& volume, PointIncrements<Dim>& increments, int at) const {
     if (averaged) {
       T more = (T(element_.mean_dilation) - g.trace()) * T(1.0 / mean_directions<Basis>);
       if constexpr (keeps_means<Basis>) more *= share_of_mean<Basis>(local);
@@ -113,6 +113,7 @@ class IncrementsAtPoints {
     T per_mass = T(stiffer_) * Omega / m;
     if constexpr (is_simplex<Basis>) per_mass = max(per_mass, T(element_.least_per_mass));
     per_mass.store_unaligned(increments.per_mass.data() + at);
+    return Omega;
   }
 
  private:

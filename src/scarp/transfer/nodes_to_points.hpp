@@ -14,6 +14,7 @@ struct MotionSums {
   using T = PointBatch<Dim>;
   T mass = T(0.0), kinetic_energy = T(0.0), taken = T(0.0), fastest2 = T(0.0);
   std::array<T, Dim> momentum;
+  Mask<T> no_volume = T(0.0) > T(0.0);  ///< has a point none, or less?
 
   MotionSums() { momentum.fill(T(0.0)); }
 };
@@ -80,7 +81,8 @@ inline void nodes_to_points(const typename Basis::Cell& cell, const ElementMotio
     std::array<T, Dim> x;
     const auto flip_change = [&](int j) { return change.at(local).value(j); };
     const T v2 = move<pic>(points, p, m, rules, here, flip_change, x, sums);
-    of_element.store(gradients, points, p, m, local, averaged, points.volume, increments, at + first);
+    const T Omega = of_element.store(gradients, points, p, m, local, averaged, points.volume, increments, at + first);
+    sums.no_volume = sums.no_volume || (m > T(0.0) && !(Omega > T(0.0)));
     (T(of_element.per_size2()) * v2).store_unaligned(increments.speed2.data() + at + first);
     moved(p, x, here);
   });
