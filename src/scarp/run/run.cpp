@@ -13,6 +13,7 @@
 #include "scarp/run/body_state.hpp"
 #include "scarp/run/boundary_nodes.hpp"
 #include "scarp/run/build.hpp"
+#include "scarp/run/expectation.hpp"
 #include "scarp/run/lengths.hpp"
 #include "scarp/run/provenance.hpp"
 #include "scarp/run/results.hpp"
@@ -49,6 +50,8 @@ Outcome run_in(const input::CaseOf<Dim>& input, const Options& options) {
   Body<Dim> body = input.start ? start_body(input) : build_body(input);
   warn_of_ignored_flip(input);
   warn_of_sparse_points(input, body);
+  warn_of_idle_removals(input, body);
+  warn_of_many_frames(input, body);
   for (const auto& warning : short_lengths(input, body)) logging::warn(warning);
   auto state = new_state(body);
   Results<Dim> results(input, options.out, body, options.overwrite ? Before::replace : Before::nothing,
@@ -91,6 +94,8 @@ std::string check_in(const input::CaseOf<Dim>& input) {
   Body<Dim> body = input.start ? start_body(input) : build_body(input);
   warn_of_ignored_flip(input);
   warn_of_sparse_points(input, body);
+  warn_of_idle_removals(input, body);
+  warn_of_many_frames(input, body);
   std::string text = fmt::format("{}: {}\n", input.path, input.title);
   text += fmt::format("  mesh: {} elements, {} nodes, {}\n", body.mesh->element_count(), body.mesh->node_count(),
                       body.mesh->grid ? "a structured grid" : "unstructured");
@@ -116,7 +121,7 @@ std::string check_in(const input::CaseOf<Dim>& input) {
     text += fmt::format("  stage \"{}\": {:g} s, about {:.0f} steps\n", stage.name, stage.duration,
                         std::ceil(stage.duration / dt));
   }
-  return text;
+  return text + expectation(input, body, dt);
 }
 
 }  // namespace
