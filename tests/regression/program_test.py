@@ -63,7 +63,7 @@ class Commands(ProgramTest):
 
     def test_points_that_were_lost_are_told_at_the_end(self):
         text = replaced(COLUMN, "[[material]]", '[method]\nleaving = "remove"\nlargest_energy_error = 0\n\n[[material]]')
-        text = replaced(text, "spacing = 0.25", "spacing = 0.25\nvelocity = [0.0, 20.0]")
+        text = replaced(text, "spacing = 0.25", "spacing = 0.25\nvelocity = [0.0, 60.0]")
         self.write("column.toml", text)
         self.assertRegex(self.scarp("run", "column.toml", "--quiet", "--out", "r").stderr, r"warning: \d+ points left the mesh and were lost")
         self.assertIn("left the mesh", "".join(json.loads(read(self.path("r", "summary.json")))["warnings"]))
