@@ -43,7 +43,7 @@ faults: deps
 	/usr/bin/python3 tests/faults/faults.py $(BUILD)/bin/scarp --umat $(BUILD)/tests/umat/kinematic_f.so --json $(BUILD)/faults.json \
 	  --kills $(or $(KILLS),300) --fills $(or $(FILLS),40) --seed $(or $(SEED),1)
 
-# TIME=600 seconds for each reader; READERS="case lab gmsh stl csv"
+# TIME=600 seconds for each reader; READERS="case lab gmsh stl csv checkpoint"
 fuzz:
 	@tools/install-deps.sh --fuzz
 	cmake -S . -B build-fuzz -DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_BUILD_TYPE=Release -DSCARP_FUZZ=ON
