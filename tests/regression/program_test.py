@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import re
+import subprocess
 import sys
 
 import cases
@@ -67,6 +68,23 @@ class Commands(ProgramTest):
         self.write("column.toml", text)
         self.assertRegex(self.scarp("run", "column.toml", "--quiet", "--out", "r").stderr, r"warning: \d+ points left the mesh and were lost")
         self.assertIn("left the mesh", "".join(json.loads(read(self.path("r", "summary.json")))["warnings"]))
+
+    def test_output_that_cannot_be_written(self):
+        self.write("column.toml", COLUMN)
+        self.write("test.toml", LAB)
+        for words in (["check", "column.toml"], ["lab", "test.toml"], ["models"]):
+            with self.subTest(words=words), open("/dev/full", "w") as full:
+                done = subprocess.run([cases.PROGRAM, *words], cwd=self.folder, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+                self.assertEqual(done.returncode, 3)
+                self.assertIn("the standard output cannot be written", done.stderr)
+
+    def test_files_without_an_end(self):
+        self.refused("check", "/dev/zero", parts=["/dev/zero: the case file is very long; found more than 10 MB"])
+
+    def test_nothing_to_resume(self):
+        self.refused("resume", "nosuch", parts=["there is no run to go on with; found nosuch, which is no folder"])
+        os.mkdir(self.path("empty"))
+        self.refused("resume", "empty", parts=["found empty, a folder without a case.toml"])
 
     def test_check_takes_overrides(self):
         self.write("column.toml", COLUMN)

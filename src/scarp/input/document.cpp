@@ -152,6 +152,9 @@ Node converted(const toml::node& node, const std::string& name) {
   throw InputError("dates and times have no place in a case", "one here", "write a number or a text in quotes", at);
 }
 
+/// Bytes of a case: devices such as /dev/zero never end.
+constexpr std::size_t largest_text = 10000000;
+
 }  // namespace
 
 Node parse_text(const std::string& text, const std::string& name) {
@@ -175,7 +178,12 @@ std::string read_text(const std::string& path) {
   if (!file) {
     throw InputError("the case file cannot be read", path, "check the name and that you may read it");
   }
-  std::string text(std::istreambuf_iterator<char>(file), {});
+  std::string text;
+  std::istreambuf_iterator<char> at(file), end;
+  for (; at != end && text.size() < largest_text; ++at) text += *at;
+  if (at != end)
+    throw InputError("the case file is very long", fmt::format("more than {} MB", largest_text / 1000000),
+                     "give the name of a case; meshes and surfaces have files of their own", {path, 0, 0});
   drop_byte_order_mark(text, path);
   return text;
 }
