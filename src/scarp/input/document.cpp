@@ -37,7 +37,8 @@
 namespace scarp::input {
 namespace {
 
-/// Refuses what toml++ 3.3.0 does not survive: non-ASCII letters outside strings and comments, which it misreads, and
+/// Refuses what toml++ 3.3.0 does not survive: non-ASCII letters outside strings and comments, which it misreads (and
+/// quotes in the middle of words, with which it would look for such letters in what seems a string here), and
 /// keys of thousands of dotted parts, which it follows one call deeper each until the stack ends.
 class TextCheck {
  public:
@@ -49,6 +50,9 @@ class TextCheck {
       if (c == '#') {
         skip_comment();
       } else if (c == '"' || c == '\'') {
+        if (at_ > 0 && std::string_view(" \t\r\n=,[]{}.").find(text_[at_ - 1]) == std::string_view::npos)
+          refuse("this is not TOML: a text in quotes begins where a key or value does", "a quote in a word",
+                 "put the whole word in quotes, or take the quote away");
         skip_string(c);
       } else {
         if (static_cast<unsigned char>(c) > 127) {
@@ -96,6 +100,7 @@ class TextCheck {
     while (at_ < text_.size()) {
       if (many_lines && text_.compare(at_, 3, triple) == 0) {
         at_ += 3;
+        for (int k = 0; k < 2 && at_ < text_.size() && text_[at_] == quote; ++k) ++at_;  // the last ones of the text
         return;
       }
       const char c = text_[at_];
