@@ -44,8 +44,9 @@ faults: deps
 	  --kills $(or $(KILLS),300) --fills $(or $(FILLS),40) --seed $(or $(SEED),1)
 	/usr/bin/python3 tests/faults/long_run.py $(BUILD)/bin/scarp --json $(BUILD)/long_run.json
 
-# TIME=600 seconds for each reader; READERS="case lab gmsh stl csv"
-fuzz: deps
+# TIME=600 seconds for each reader; READERS="case lab gmsh stl csv checkpoint"
+fuzz:
+	@tools/install-deps.sh --fuzz
 	cmake -S . -B build-fuzz -DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_BUILD_TYPE=Release -DSCARP_FUZZ=ON
 	cmake --build build-fuzz --parallel $(JOBS) --target fuzz
 	/usr/bin/python3 tests/fuzz/fuzz.py build-fuzz --time $(or $(TIME),600) --jobs $(JOBS) $(READERS)

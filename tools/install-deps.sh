@@ -3,6 +3,7 @@
 #   tools/install-deps.sh         what building, running and testing need
 #   tools/install-deps.sh --ci    what the checks of .ci/run need as well
 #   tools/install-deps.sh --bench what `make bench` needs as well
+#   tools/install-deps.sh --fuzz  what `make fuzz` needs as well: libFuzzer and clang's sanitizers
 set -eu
 
 packages="
@@ -25,8 +26,9 @@ case "${1:-}" in
   "") ;;
   --ci) packages="$packages libbenchmark-dev clang-14 libomp-14-dev clang-format-14 git ninja-build" ;;
   --bench) packages="$packages libbenchmark-dev" ;;
+  --fuzz) packages="$packages clang-14 libclang-rt-14-dev" ;;
   *)
-    echo "usage: tools/install-deps.sh [--ci | --bench]" >&2
+    echo "usage: tools/install-deps.sh [--ci | --bench | --fuzz]" >&2
     exit 2
     ;;
 esac

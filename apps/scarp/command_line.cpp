@@ -132,7 +132,13 @@ int guarded_main(int argc, char** argv) {
 
 int scarp_main(int argc, char** argv) {
   scarp::exec::wait_politely(argv);
-  const int status = guarded_main(argc, argv);
+  int status = guarded_main(argc, argv);
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    fmt::print(
+        stderr,
+        "scarp: the standard output cannot be written, and is not whole\n  remedy: check that the disk has room\n");
+    if (status == 0) status = failed;
+  }
   if (scarp::umat::was_ended()) scarp::umat::end_program(status);
   return status;
 }

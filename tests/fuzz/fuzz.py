@@ -11,7 +11,7 @@ import re
 import subprocess
 import sys
 
-READERS = ["case", "lab", "gmsh", "stl", "csv"]
+READERS = ["case", "lab", "gmsh", "stl", "csv", "checkpoint"]
 HERE = pathlib.Path(__file__).resolve().parent
 
 

@@ -486,6 +486,9 @@ BAD_CASES = [
     ("column", "spacing = 0.25", "spacing = 1e-300",
      "bad.toml:13:1: the points do not fit into memory; found more than 10^21 bytes (grid 300 bytes, about inf points more than 10^21 bytes), where * are free.",
      "take a larger spacing, or a smaller region"),
+    ("column", "E = 1e4", "E = 10-@'x'",
+     "this is not TOML: a text in quotes begins where a key or value does; found a quote in a word.",
+     "put the whole word in quotes, or take the quote away"),
     # space
     ("space", "y = [0.0, 0.5]", "@y = [0.5, 0.0]",
      "y goes from a lower to a higher number; found [0.5, 0].",

@@ -6,6 +6,8 @@ Oracles: what README and run.hpp promise; the place of the damage in the text of
 import json
 import os
 import pathlib
+import re
+import subprocess
 import sys
 
 import cases
@@ -24,6 +26,65 @@ class Commands(ProgramTest):
                      "48 in 12 elements", 'boundary "bottom": 3 nodes, fixes x, y'):
             self.assertIn(part, text)
         self.assertEqual(os.listdir(self.folder), ["column.toml"])
+
+    def test_check_says_what_a_run_takes(self):
+        self.write("column.toml", COLUMN)
+        text = self.scarp("check", "column.toml").stdout
+        # Frames at 0, 0.05, 0.10, 0.15 and 0.2 s. The steps are those that the stage's line counts; their rate is that of this moment.
+        self.assertRegex(text, r"memory: about \d+ kB \(grid \d+ bytes, points \d+ kB\), where [0-9.]+ [GMT]B are free")
+        self.assertRegex(text, r"output: about 5 frames of at most \d+ kB, \d+ kB in all")
+        steps = re.search(r"about (\d+) steps", text)[1]
+        self.assertRegex(text, rf"wall time: about [0-9.e-]+ s \({steps} steps of [0-9.e-]+ s, as the first ones take with \d+ threads\)")
+        self.scarp("run", "column.toml", "--quiet", "--out", "r")
+        frames = [name for name in os.listdir(self.path("r")) if name.endswith(".vtu") and name != "mesh.vtu"]
+        self.assertEqual(len(frame_times(read(self.path("r", "points.pvd")).decode())), 5, frames)
+
+    def test_more_points_than_fit_are_counted_in_bytes(self):
+        self.write("column.toml", COLUMN)  # 3 m2 in squares of 1.73 um
+        self.refused("check", "column.toml", "--set", "region.column.spacing=1.7320508e-6",
+                     parts=["column.toml:13:1: the points do not fit into memory", "TB (grid", "about 1e+12 points"])
+
+    def warnings(self, text, *options):
+        self.write("warns.toml", text)
+        for command in (["check"], ["run", "--quiet", "--overwrite", "--out", "r"]):
+            yield self.scarp(*command, "warns.toml", *options).stderr
+
+    def test_a_removal_that_hits_nothing(self):
+        idle = replaced(COLUMN, "damping = 0.5", "damping = 0.5\nremove = { polygon = [[0.0, 3.1], [1.0, 3.1], [1.0, 4.0], [0.0, 4.0]] }")
+        for warned in self.warnings(idle):
+            self.assertIn(f"warns.toml:{place(idle, '[[stage]]')}: the removal of stage \"settle\" takes nothing away; found no point", warned)
+        for warned in self.warnings(idle.replace("3.1]", "2.5]")):
+            self.assertNotIn("removal", warned)
+
+    def test_very_many_frames(self):
+        self.write("column.toml", COLUMN)
+        text = self.scarp("check", "column.toml", "--set", "output.every=1e-6").stderr
+        self.assertIn("very many frames; found every = 1e-06: about 2e+05 frames, 2.", text)
+        self.assertNotIn("frames", self.scarp("check", "column.toml").stderr)
+
+    def test_points_that_were_lost_are_told_at_the_end(self):
+        text = replaced(COLUMN, "[[material]]", '[method]\nleaving = "remove"\nlargest_energy_error = 0\n\n[[material]]')
+        text = replaced(text, "spacing = 0.25", "spacing = 0.25\nvelocity = [0.0, 60.0]")
+        self.write("column.toml", text)
+        self.assertRegex(self.scarp("run", "column.toml", "--quiet", "--out", "r").stderr, r"warning: \d+ points left the mesh and were lost")
+        self.assertIn("left the mesh", "".join(json.loads(read(self.path("r", "summary.json")))["warnings"]))
+
+    def test_output_that_cannot_be_written(self):
+        self.write("column.toml", COLUMN)
+        self.write("test.toml", LAB)
+        for words in (["check", "column.toml"], ["lab", "test.toml"], ["models"]):
+            with self.subTest(words=words), open("/dev/full", "w") as full:
+                done = subprocess.run([cases.PROGRAM, *words], cwd=self.folder, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+                self.assertEqual(done.returncode, 3)
+                self.assertIn("the standard output cannot be written", done.stderr)
+
+    def test_files_without_an_end(self):
+        self.refused("check", "/dev/zero", parts=["/dev/zero: the case file is very long; found more than 10 MB"])
+
+    def test_nothing_to_resume(self):
+        self.refused("resume", "nosuch", parts=["there is no run to go on with; found nosuch, which is no folder"])
+        os.mkdir(self.path("empty"))
+        self.refused("resume", "empty", parts=["found empty, a folder without a case.toml"])
 
     def test_check_takes_overrides(self):
         self.write("column.toml", COLUMN)

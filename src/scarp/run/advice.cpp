@@ -8,8 +8,10 @@
 
 #include "scarp/base/error.hpp"
 #include "scarp/base/log.hpp"
+#include "scarp/base/memory.hpp"
 #include "scarp/base/zero_pages.hpp"
 #include "scarp/mesh/near.hpp"
+#include "scarp/run/expectation.hpp"
 
 namespace scarp::run {
 namespace {
@@ -148,6 +150,65 @@ void warn_of_ignored_flip(const input::CaseOf<Dim>& input) {
   }
 }
 
+template <int Dim>
+void warn_of_idle_removals(const input::CaseOf<Dim>& input, const Body<Dim>& body) {
+  const auto holds_soil = [&](const auto& shape) {
+    const auto box = bounds(shape);
+    for (const auto& block : body.blocks()) {
+      for (int i = 0; i < block.size(); ++i) {
+        const auto x = position_of(block.points, i);
+        bool near = true;
+        for (int k = 0; k < Dim; ++k) near = near && x[k] >= box.low[k] && x[k] <= box.high[k];
+        if (near && contains(shape, x)) return true;
+      }
+    }
+    return false;
+  };
+  for (const auto& stage : input.stages) {
+    if (!stage.remove || holds_soil(stage.remove->shape())) continue;
+    logging::warn(InputError(fmt::format("the removal of stage \"{}\" takes nothing away", stage.name),
+                             "no point of the soil inside it, as it stands at the start",
+                             "move it to where the soil is, in metres like the regions", stage.position)
+                      .what());
+  }
+}
+
+template <int Dim>
+void warn_of_many_frames(const input::CaseOf<Dim>& input, const Body<Dim>& body) {
+  constexpr double many = 10000;
+  const auto frames = frames_expected(input, body);
+  if (frames.count <= many) return;
+  logging::warn(InputError("the output of this case is that of very many frames",
+                           fmt::format("every = {:g}: about {:.3g} frames, {}", input.output.every, frames.count,
+                                       as_bytes(frames.bytes)),
+                           "enlarge every in [output]; history.csv may have as many rows as you like",
+                           {input.path, 0, 0})
+                    .what());
+}
+
+template <int Dim>
+void warn_of_losses(const Ledger<Dim>& ledger) {
+  if (ledger.failures > 0)
+    logging::warn(
+        fmt::format("{} stress updates failed in this run, and kept the stress that they had: look at the "
+                    "field \"failed\" of the frames",
+                    ledger.failures));
+  if (ledger.last.stress.on_floor > 0)
+    logging::warn(
+        fmt::format("{} points end on the floor of p_c, where the law is not that of the soil: look at the "
+                    "field \"on_floor\" of the last frame",
+                    ledger.last.stress.on_floor));
+  if (ledger.left_mesh > 0)
+    logging::warn(
+        fmt::format("{} points left the mesh and were lost: extend the mesh to where the soil goes", ledger.left_mesh));
+}
+
+template void warn_of_idle_removals<2>(const input::CaseOf<2>&, const Body<2>&);
+template void warn_of_idle_removals<3>(const input::CaseOf<3>&, const Body<3>&);
+template void warn_of_many_frames<2>(const input::CaseOf<2>&, const Body<2>&);
+template void warn_of_many_frames<3>(const input::CaseOf<3>&, const Body<3>&);
+template void warn_of_losses<2>(const Ledger<2>&);
+template void warn_of_losses<3>(const Ledger<3>&);
 template std::string points_per_element(const Body<2>&);
 template std::string points_per_element(const Body<3>&);
 template void warn_of_ignored_flip<2>(const input::CaseOf<2>&);

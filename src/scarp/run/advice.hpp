@@ -4,6 +4,7 @@
 #include <string>
 
 #include "scarp/input/case.hpp"
+#include "scarp/run/ledger.hpp"
 #include "scarp/step/body.hpp"
 
 namespace scarp::run {
@@ -16,6 +17,18 @@ std::string points_per_element(const Body<Dim>& body);
 /// would do, and says how many elements inside the region hold none.
 template <int Dim>
 void warn_of_sparse_points(const input::CaseOf<Dim>& input, const Body<Dim>& body);
+
+/// Warns of removals that hold none of the points as they are before the first step.
+template <int Dim>
+void warn_of_idle_removals(const input::CaseOf<Dim>& input, const Body<Dim>& body);
+
+/// Warns of more than ten thousand frames.
+template <int Dim>
+void warn_of_many_frames(const input::CaseOf<Dim>& input, const Body<Dim>& body);
+
+/// Warns, at the end of a run, of stresses that failed, points on the floor of p_c, and points that left the mesh.
+template <int Dim>
+void warn_of_losses(const Ledger<Dim>& ledger);
 
 /// Warns of a share of FLIP per step in a case whose scheme has no use for one: it is ignored, in [method] and in
 /// stages.

@@ -175,8 +175,10 @@ void load_block(const Loader& load, Elements elements, const Body<Dim>& body, Bl
   });
   load(Entry{"state", "", ""}, block.state);
   check_points(load, block, body.mesh->element_count());
-  if (!body.mesh->grid && block.points.xi[0].empty() && block.size() > 0)
-    refuse_region(load, block.name, "its points have no local coordinates (xi)", "");
+  const auto& xi = block.points.xi;
+  const bool lacks = std::any_of(xi.begin(), xi.end(), [](const Column& column) { return column.empty(); });
+  if (!body.mesh->grid && lacks && block.size() > 0)
+    refuse_region(load, block.name, "its points lack local coordinates (xi), or one of them", "");
   if (elements == Elements::by_place) find_elements(load, body, block);
 }
 

@@ -77,8 +77,10 @@ std::string seal_of(const void* data, std::size_t bytes) {
   return fmt::format("{}{}{}", seal_begin, hash_of(data, bytes), seal_end);
 }
 
-CheckpointFile::CheckpointFile(const std::string& path, bool edited) : path_(path) {
-  const std::string content = io::read_whole(path);
+CheckpointFile::CheckpointFile(const std::string& path, bool edited)
+    : CheckpointFile(path, io::read_whole(path), edited) {}
+
+CheckpointFile::CheckpointFile(const std::string& path, const std::string& content, bool edited) : path_(path) {
   const auto sealed = sealed_part(content);
   changed_ = !sealed.good;
   if (changed_ && !edited) {

@@ -59,6 +59,8 @@ class CheckpointFile {
  public:
   /// Reads a file. Throws InputError where it is damaged, of another format, or has no seal and is not `edited`.
   explicit CheckpointFile(const std::string& path, bool edited = false);
+  /// The same of its bytes; `path` stands for the file in errors.
+  CheckpointFile(const std::string& path, const std::string& content, bool edited);
 
   const std::string& path() const { return path_; }
   const CheckpointHead& head() const { return head_; }

@@ -14,6 +14,7 @@ void Ledger<Dim>::add(double step, int points, const StepTotals<Dim>& totals) {
   removed_kinetic_energy += totals.removed_energy;
   removed_mass += totals.removed_mass;
   removed_points += totals.removed;
+  left_mesh += totals.removed;
   for (int i = 0; i < phases; ++i) seconds[i] += totals.seconds[i];
   failures += totals.stress.failures;
   corrected += totals.stress.corrected;

@@ -20,7 +20,7 @@ struct Ledger : Energies {
   double initial_mass = 0, removed_mass = 0;
   double initial_kinetic_energy = 0, removed_kinetic_energy = 0;
   std::array<double, phases> seconds{};  ///< of each Phase; only where asked for
-  std::int64_t removed_points = 0, failures = 0, corrected = 0, substeps = 0;
+  std::int64_t removed_points = 0, left_mesh = 0, failures = 0, corrected = 0, substeps = 0;
 
   /// f(Entry, member) for each that a checkpoint keeps, besides the last step's and the searches' (archive.hpp).
   template <class Self, class F>
@@ -35,6 +35,7 @@ struct Ledger : Energies {
     f(Entry{"initial_kinetic_energy", "kJ", "at the start of the run"}, l.initial_kinetic_energy);
     f(Entry{"removed_kinetic_energy", "kJ", "of removed points, and taken by zero_velocity"}, l.removed_kinetic_energy);
     f(Entry{"removed_points", "", "cut away or gone from the mesh"}, l.removed_points);
+    f(Entry{"left_mesh", "", "of these, gone from the mesh"}, l.left_mesh);
     f(Entry{"failures", "", "failed stress updates"}, l.failures);
     f(Entry{"corrected", "", "stresses pulled back"}, l.corrected);
     f(Entry{"substeps", "", "of all stress updates"}, l.substeps);

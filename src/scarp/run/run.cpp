@@ -14,6 +14,7 @@
 #include "scarp/run/body_state.hpp"
 #include "scarp/run/boundary_nodes.hpp"
 #include "scarp/run/build.hpp"
+#include "scarp/run/expectation.hpp"
 #include "scarp/run/lengths.hpp"
 #include "scarp/run/provenance.hpp"
 #include "scarp/run/results.hpp"
@@ -50,6 +51,8 @@ Outcome run_in(const input::CaseOf<Dim>& input, const Options& options) {
   Body<Dim> body = input.start ? start_body(input) : build_body(input);
   warn_of_ignored_flip(input);
   warn_of_sparse_points(input, body);
+  warn_of_idle_removals(input, body);
+  warn_of_many_frames(input, body);
   for (const auto& warning : short_lengths(input, body)) logging::warn(warning);
   auto state = new_state(body);
   Results<Dim> results(input, options.out, body, options.overwrite ? Before::replace : Before::nothing,
@@ -92,6 +95,8 @@ std::string check_in(const input::CaseOf<Dim>& input) {
   Body<Dim> body = input.start ? start_body(input) : build_body(input);
   warn_of_ignored_flip(input);
   warn_of_sparse_points(input, body);
+  warn_of_idle_removals(input, body);
+  warn_of_many_frames(input, body);
   std::string text = fmt::format("{}: {}\n", input.path, input.title);
   text += fmt::format("  mesh: {} elements, {} nodes, {}\n", body.mesh->element_count(), body.mesh->node_count(),
                       body.mesh->grid ? "a structured grid" : "unstructured");
@@ -117,7 +122,7 @@ std::string check_in(const input::CaseOf<Dim>& input) {
     text += fmt::format("  stage \"{}\": {:g} s, about {:.0f} steps\n", stage.name, stage.duration,
                         std::ceil(stage.duration / dt));
   }
-  return text;
+  return text + expectation(input, body, dt);
 }
 
 }  // namespace
@@ -128,6 +133,11 @@ Outcome run_case(const input::AnyCase& input, const Options& options) {
 
 Outcome resume_case(const Options& options) {
   const std::string kept = case_in(options.out);
+  if (std::error_code none; !std::filesystem::exists(kept, none))
+    throw InputError("there is no run to go on with",
+                     options.out + (std::filesystem::is_directory(options.out, none) ? ", a folder without a case.toml"
+                                                                                     : ", which is no folder"),
+                     "name the folder of the results of a run, or begin one with scarp run");
   auto lock = std::make_unique<FolderLock>(options.out);
   auto from = latest_checkpoint(options.out, options.edited);
   std::error_code error;

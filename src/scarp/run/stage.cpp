@@ -84,23 +84,14 @@ void check_energy(const Context<Dim>& context) {
 /// One step of the body; an error tells when it came. The ledger's time is then that of the failed step, for its state
 /// is what the last frame shows.
 template <int Dim>
-<<<<<<< HEAD
-StepTotals<Dim> step(Context<Dim>& context, double dt, const StepSettings& settings) {
+StepTotals<Dim> step(Context<Dim>& context, const std::string& stage, double dt, const StepSettings& settings) {
   auto& ledger = context.state.ledger;
   try {
     return advance(context.body, dt, settings);
   } catch (const RunError& error) {
     ledger.time += dt;
-    throw RunError(fmt::format("{} at t = {:.6g} s, step {}", error.problem(), ledger.time, ledger.steps + 1),
-=======
-StepTotals<Dim> step(Context<Dim>& context, const std::string& stage, double dt, const StepSettings& settings) {
-  try {
-    return advance(context.body, dt, settings);
-  } catch (const RunError& error) {
-    context.ledger.time += dt;
-    throw RunError(fmt::format("{} at t = {:.6g} s, step {}, in stage \"{}\"", error.problem(), context.ledger.time,
-                               context.ledger.steps + 1, stage),
->>>>>>> speed
+    throw RunError(fmt::format("{} at t = {:.6g} s, step {}, in stage \"{}\"", error.problem(), ledger.time,
+                               ledger.steps + 1, stage),
                    error.value(), error.remedy());
   }
 }
@@ -252,17 +243,10 @@ void run_stage(Context<Dim>& context) {
   while (ledger.time < end && !now.resting && !interrupted()) {
     if (now.removal) now.removal->take_due(ledger.time, body, ledger);
     imbalance.before_step(ledger.time, settings);
-<<<<<<< HEAD
     const double next_lift = now.removal ? now.removal->next_time() : end;
     const double until = std::min({end, now.frames.next(), next_lift}) - ledger.time;
     const double dt = fitted(stable_time_step(context, now.critical), until);
-    const auto totals = step(context, dt, settings);
-=======
-    const double next_lift = removal ? removal->next_time() : end;
-    const double until = std::min({end, frames.next(), next_lift}) - ledger.time;
-    const double dt = fitted(stable_time_step(context, critical), until);
     const auto totals = step(context, stage.name, dt, settings);
->>>>>>> speed
     ledger.add(dt, body.point_count(), totals);
     state.energy.step(ledger);
     if (end - ledger.time < 1e-9 * dt) ledger.time = end;

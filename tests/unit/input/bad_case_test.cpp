@@ -299,6 +299,21 @@ TEST(BadCase, BrokenSyntax) {
   expect_not_toml("gravity = [0.0, -9.81]", "gravity = [0.0, -9.81", 2);  // where the next table starts
 }
 
+std::string title_of(const std::string& title) {
+  return read(replaced(minimal, "\"two columns\"", title)).title;
+}
+
+// toml++ 3.3.0 looks for white space of Unicode there, in a switch that reaches the unreachable for U+FFBE.
+TEST(BadCase, QuotesInTheMiddleOfWords) {
+  const std::string problem = "a text in quotes begins where a key or value does";
+  expect_all_refused({
+      {"every = 0.25", "every = 10-@'\uffbe0", problem, "a quote in a word", "take the quote away"},
+      {"every = 0.25", "every@\"\" = 0.25", problem, "a quote in a word", "take the quote away"},
+  });
+  EXPECT_EQ(title_of("\"two columns\""), "two columns");
+  EXPECT_EQ(title_of("'''two'''''"), "two''") << "TOML: two quotes may stand before the last three";
+}
+
 TEST(BadCase, LettersOutsideAsciiOutsideQuotes) {
   const std::string remedy = "put the key or value in quotes";
   const std::string problem = "letters outside ASCII stand in quotes or comments only";
@@ -309,7 +324,7 @@ TEST(BadCase, LettersOutsideAsciiOutsideQuotes) {
        "0.25",
        problem, "", remedy},
       {"every = 0.25", "every = 0.25@\u00a0", problem, "", remedy},
-      {"[output]", "[o\"\u00fc\"@\u00fctput]", problem, "", remedy},
+      {"[output]", "[\"\u00fc\"@\u00fctput]", problem, "", remedy},
       {"title = \"two columns\"", "title = \"\\\"\u00e9\" @\u00e9", problem, "", remedy},
       {"title = \"two columns\"", "title = '\u00e9\\' @\u00e9", problem, "", remedy},
       {"title = \"two columns\"", "title = \"\"\"\n\u00e9 \" \n\"\"\" @\u00e9 # \u00e9", problem, "", remedy},

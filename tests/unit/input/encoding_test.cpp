@@ -121,5 +121,12 @@ TEST(Encoding, TheLetterIsShown) {
   }
 }
 
+// toml++ asks of the letter after the end of such a line whether it is blank, and holds it for impossible.
+TEST(Encoding, AccentedLettersAfterAJoinedLine) {
+  const auto node = parse_text("a = \"\"\"one \\\n  \u00E9t\u00E9\"\"\"\n", "case.toml");
+  EXPECT_EQ(std::get<std::string>(std::get<Keys>(node.value).at("a").value), "one \u00E9t\u00E9");
+  EXPECT_THROW(parse_text("a = \"\"\"\\\u036C\"\"\"\n", "case.toml"), InputError);
+}
+
 }  // namespace
 }  // namespace scarp::input::test
