@@ -84,7 +84,7 @@ class Commands(ProgramTest):
     def test_nothing_to_resume(self):
         self.refused("resume", "nosuch", parts=["there is no run to go on with; found nosuch, which is no folder"])
         os.mkdir(self.path("empty"))
-        self.refused("resume", "empty", parts=["found empty, a folder without a case.toml"])
+        self.refused("resume", "empty", parts=["there is no run to go on with; found no empty/case.toml"])
 
     def test_check_takes_overrides(self):
         self.write("column.toml", COLUMN)

@@ -14,6 +14,8 @@ class Removal {
   Removal(const input::RemovalInputOf<Dim>& input, double start);
 
   bool finished() const { return done_ == input_.lifts; }
+  /// Can so many lifts be done? A checkpoint may say anything.
+  bool possible() const { return done_ >= 0 && done_ <= input_.lifts; }
   /// When the next lift is due.
   double next_time() const;
   /// f(Entry, member) for each that a checkpoint keeps (archive.hpp).

@@ -134,10 +134,10 @@ Outcome run_case(const input::AnyCase& input, const Options& options) {
 Outcome resume_case(const Options& options) {
   const std::string kept = case_in(options.out);
   if (std::error_code none; !std::filesystem::exists(kept, none))
-    throw InputError("there is no run to go on with",
-                     options.out + (std::filesystem::is_directory(options.out, none) ? ", a folder without a case.toml"
-                                                                                     : ", which is no folder"),
-                     "name the folder of the results of a run, or begin one with scarp run");
+    throw InputError(
+        "there is no run to go on with",
+        std::filesystem::is_directory(options.out, none) ? "no " + kept : options.out + ", which is no folder",
+        "name the folder of the results of a run, or begin one with scarp run");
   auto lock = std::make_unique<FolderLock>(options.out);
   auto from = latest_checkpoint(options.out, options.edited);
   std::error_code error;

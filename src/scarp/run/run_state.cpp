@@ -66,6 +66,10 @@ void load_run(const Loader& load, const input::CaseOf<Dim>& input, const Body<Di
   if (!state.stages.empty() && under_way.has("critical")) {
     state.stage.emplace(input, static_cast<int>(state.stages.size()) - 1, state.ledger, body);
     StageState<Dim>::each_saved(*state.stage, under_way);
+    if (const auto& removal = state.stage->removal; removal && !removal->possible()) {
+      throw InputError("this file's number of lifts that are taken away (stage_under_way/removal/done) cannot be",
+                       load.file_name(), "it is 0 to the lifts of the stage");
+    }
   }
   for (std::size_t i = 0; load.within(of_warning(i)).has("text"); ++i)
     load.within(of_warning(i))(of_text, state.warnings.emplace_back());

@@ -128,5 +128,11 @@ TEST(Encoding, AccentedLettersAfterAJoinedLine) {
   EXPECT_THROW(parse_text("a = \"\"\"\\\u036C\"\"\"\n", "case.toml"), InputError);
 }
 
+TEST(Encoding, TextsThatEndInQuotes) {
+  const auto node = parse_text("a = \"\"\"one\"\"\"\"\"\nb = '''two''''\n", "case.toml");
+  EXPECT_EQ(std::get<std::string>(std::get<Keys>(node.value).at("a").value), "one\"\"");
+  EXPECT_EQ(std::get<std::string>(std::get<Keys>(node.value).at("b").value), "two'");
+}
+
 }  // namespace
 }  // namespace scarp::input::test
