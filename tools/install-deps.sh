@@ -24,7 +24,7 @@ python3 python3-numpy python3-matplotlib
 "
 case "${1:-}" in
   "") ;;
-  --ci) packages="$packages libbenchmark-dev clang-14 libomp-14-dev clang-format-14 git ninja-build" ;;
+  --ci) packages="$packages libbenchmark-dev clang-14 libomp-14-dev clang-format-14 git ninja-build python3-h5py" ;;
   --bench) packages="$packages libbenchmark-dev" ;;
   --fuzz) packages="$packages clang-14 libclang-rt-14-dev" ;;
   *)
