@@ -66,7 +66,8 @@ inline std::map<std::string, double> with_constant(std::map<std::string, double>
 inline std::vector<Problem> bound_problems(const std::string& model, const Sample& sample, const std::string& key,
                                            double x) {
   auto all = make_model(model, with_constant(sample.constants, key, x), sample.settings).problems;
-  std::erase_if(all, [&](const Problem& p) { return p.what.find(key + " must satisfy") != 0; });
+  const std::string what = std::isfinite(x) ? " must satisfy" : " is finite";
+  std::erase_if(all, [&](const Problem& p) { return p.what.find(key + what) != 0; });
   return all;
 }
 

@@ -481,10 +481,10 @@ BAD_CASES = [
      "did you mean OCR?"),
     # column
     ("column", "spacing = 0.25", "spacing = 1.7320508e-6",
-     "bad.toml:13:1: the points do not fit into memory; found 320 TB (grid 300 bytes, about 1e+12 points 320 TB), where * are free.",
+     "bad.toml:13:1: the points do not fit into memory; found 490 TB (grid 300 bytes, about 1e+12 points 320 TB, the copy that is a checkpoint 170 TB), where * are free.",
      "take a larger spacing, or a smaller region"),
     ("column", "spacing = 0.25", "spacing = 1e-300",
-     "bad.toml:13:1: the points do not fit into memory; found more than 10^21 bytes (grid 300 bytes, about inf points more than 10^21 bytes), where * are free.",
+     "bad.toml:13:1: the points do not fit into memory; found more than 10^21 bytes (grid 300 bytes, about inf points more than 10^21 bytes, the copy that is a checkpoint more than 10^21 bytes), where * are free.",
      "take a larger spacing, or a smaller region"),
     ("column", "E = 1e4", "E = 10-@'x'",
      "this is not TOML: a text in quotes begins where a key or value does; found a quote in a word.",

@@ -1,6 +1,7 @@
 """Every bad case of the table bad_cases.py: the program ends with status 2 and the whole message. Usage: bad_cases_test.py PROGRAM [TEST ...]
 
-Oracles: the places are counted in the spoilt text; the messages were read by people before they went into the table.
+Oracles: the places are counted in the spoilt text; messages are what the program said when it
+was read: they guard against change.
 """
 
 import fnmatch

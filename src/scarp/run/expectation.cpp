@@ -26,17 +26,6 @@ std::string as_time(double seconds) {
   return fmt::format("{:.3g} days", seconds / 86400);
 }
 
-template <int Dim>
-StepSettings first_settings(const input::CaseOf<Dim>& input) {
-  const auto& stage = input.stages.front();
-  return {scheme_of(input.method, stage.flip),
-          stage.damping,
-          input.method.corrected_quadrature ? QuadratureRule::corrected : QuadratureRule::points,
-          {input.method.tolerance, 1e-5},
-          input.method.remove_leaving,
-          false};
-}
-
 /// Wall time of a step. The first one, which makes what later ones use again, counts only where it is long.
 template <int Dim>
 double seconds_of_step(const input::CaseOf<Dim>& input, Body<Dim>& body, double dt) {
@@ -44,7 +33,7 @@ double seconds_of_step(const input::CaseOf<Dim>& input, Body<Dim>& body, double 
   const auto since = [](Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
   };
-  const auto settings = first_settings(input);
+  const auto settings = settings_of(input, input.stages.front());
   auto start = Clock::now();
   advance(body, dt, settings);
   if (const double first = since(start); first > long_enough) return first;
@@ -79,8 +68,9 @@ std::string expectation(const input::CaseOf<Dim>& input, Body<Dim>& body, double
   const auto need = memory_need(input);
   const auto frames = frames_expected(input, body);
   std::string text =
-      fmt::format("  memory: about {} (grid {}, points {}), where {} are free\n", as_bytes(need.grid + need.points),
-                  as_bytes(need.grid), as_bytes(need.points), as_bytes(free_memory().memory));
+      fmt::format("  memory: about {} (grid {}, points {}, the copy that is a checkpoint {}), where {} are free\n",
+                  as_bytes(need.grid + need.points + need.checkpoint), as_bytes(need.grid), as_bytes(need.points),
+                  as_bytes(need.checkpoint), as_bytes(free_memory().memory));
   text += fmt::format("  output: about {:.10g} frames of at most {}, {} in all\n", frames.count,
                       as_bytes(frames.bytes / frames.count), as_bytes(frames.bytes));
   double steps = 0;

@@ -9,4 +9,17 @@ Scheme scheme_of(const input::MethodInput& method, std::optional<double> flip) {
   return scheme;
 }
 
+template <int Dim>
+StepSettings settings_of(const input::CaseOf<Dim>& input, const input::StageInputOf<Dim>& stage, bool profile) {
+  return {scheme_of(input.method, stage.flip),
+          stage.damping,
+          input.method.corrected_quadrature ? QuadratureRule::corrected : QuadratureRule::points,
+          {input.method.tolerance, 1e-5},
+          input.method.remove_leaving,
+          profile};
+}
+
+template StepSettings settings_of<2>(const input::CaseOf<2>&, const input::StageInputOf<2>&, bool);
+template StepSettings settings_of<3>(const input::CaseOf<3>&, const input::StageInputOf<3>&, bool);
+
 }  // namespace scarp::run

@@ -214,16 +214,6 @@ void begin_stage(Context<Dim>& context, const StepSettings& settings) {
   now.energy_said = state.energy.largest_ratio() > EnergyCheck::worth_a_warning;
 }
 
-template <int Dim>
-StepSettings settings_of(const input::CaseOf<Dim>& input, const input::StageInputOf<Dim>& stage, bool profile) {
-  return {scheme_of(input.method, stage.flip),
-          stage.damping,
-          input.method.corrected_quadrature ? QuadratureRule::corrected : QuadratureRule::points,
-          {input.method.tolerance, 1e-5},
-          input.method.remove_leaving,
-          profile};
-}
-
 }  // namespace
 
 template <int Dim>
