@@ -31,7 +31,7 @@ class Commands(ProgramTest):
         self.write("column.toml", COLUMN)
         text = self.scarp("check", "column.toml").stdout
         # Frames at 0, 0.05, 0.10, 0.15 and 0.2 s. The steps are those that the stage's line counts; their rate is that of this moment.
-        self.assertRegex(text, r"memory: about \d+ kB \(grid \d+ bytes, points \d+ kB, the copy that is a checkpoint \d+ kB\), where [0-9.]+ [GMT]B are free")
+        self.assertRegex(text, r"memory: about \d+ kB \(grid \d+ bytes, points \d+ kB, the copy that is a checkpoint [0-9.]+ kB\), where [0-9.]+ [GMT]B are free")
         self.assertRegex(text, r"output: about 5 frames of at most \d+ kB, \d+ kB in all")
         steps = re.search(r"about (\d+) steps", text)[1]
         self.assertRegex(text, rf"wall time: about [0-9.e-]+ s \({steps} steps of [0-9.e-]+ s, as the first ones take with \d+ threads\)")
