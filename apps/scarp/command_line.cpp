@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <new>
@@ -132,6 +133,8 @@ int guarded_main(int argc, char** argv) {
 
 int scarp_main(int argc, char** argv) {
   scarp::exec::wait_politely(argv);
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a limit on the size of files (ulimit -f) is then an error of writing, with its place
   int status = guarded_main(argc, argv);
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     fmt::print(

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <csignal>
 #include <functional>
+#include <new>
 #include <numeric>
 #include <utility>
 
@@ -159,12 +160,17 @@ void Runner<Dim>::save(const std::string& name) {
   head_.steps = state_.ledger.steps;
   head_.within = state_.stage.has_value();
   head_.stage = state_.stages.empty() ? "" : state_.stages.back().name;
-  io::Hdf5Image image(size_of_state(body_));
-  const Saver saver(image, "scarp");
-  save_head(saver, head_);
-  save_run(saver, state_);
-  save_body(saver, body_);
-  writer_.write(name, image.finish(), [this] { results_.sync(); });
+  try {
+    io::Hdf5Image image(size_of_state(body_));
+    const Saver saver(image, "scarp");
+    save_head(saver, head_);
+    save_run(saver, state_);
+    save_body(saver, body_);
+    writer_.write(name, image.finish(), [this] { results_.sync(); });
+  } catch (const std::bad_alloc&) {
+    // The run itself needs no more memory than it has.
+    logging::info(fmt::format("no memory for the checkpoint {}: the run goes on without it", name));
+  }
 }
 
 template <int Dim>
