@@ -1,6 +1,7 @@
 #include "scarp/run/stage.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -49,14 +50,34 @@ std::string end_text(IntegrationEnd end) {
   }
 }
 
+/// "at t = 1 s, step 3, in stage "cut"": when an error after a step came.
+template <int Dim>
+std::string when(const Context<Dim>& context) {
+  const auto& ledger = context.state.ledger;
+  return fmt::format("at t = {:.6g} s, step {}, in stage \"{}\"", ledger.time, ledger.steps,
+                     context.state.stages.back().name);
+}
+
+/// " of region "clay" at (1, 2)": where the point of this number is; nothing where it is gone.
+template <int Dim>
+std::string place_of(const Body<Dim>& body, int id) {
+  for (const auto& block : body.blocks()) {
+    const auto found = std::find(block.points.id.begin(), block.points.id.end(), id);
+    if (found == block.points.id.end()) continue;
+    const auto x = position_of(block.points, static_cast<int>(found - block.points.id.begin()));
+    return fmt::format(" of region \"{}\" at ({:.6g})", block.name, fmt::join(x, ", "));
+  }
+  return "";
+}
+
 template <int Dim>
 void check_failures(const Context<Dim>& context) {
   const auto& ledger = context.state.ledger;
   if (ledger.failures <= context.input.method.largest_failures) return;
+  const auto& first = ledger.last.stress.first_failed;
   throw RunError(
-      fmt::format("the stress update of point {} failed at t = {:.6g} s, step {}: {}",
-                  ledger.last.stress.first_failed.id, ledger.time, ledger.steps,
-                  end_text(ledger.last.stress.first_failed.end)),
+      fmt::format("the stress update of point {}{} failed {}: {}", first.id, place_of(context.body, first.id),
+                  when(context), end_text(first.end)),
       fmt::format("{} failures in this run", ledger.failures),
       "look at the last frame; take a smaller safety, with the subloading model a larger p_c_floor, or allow some with "
       "largest_failures in [method]");
@@ -75,8 +96,7 @@ void check_energy(const Context<Dim>& context) {
   const double largest = context.input.method.largest_energy_error;
   if (largest <= 0 || energy.ratio() <= largest) return;
   throw RunError(
-      fmt::format("the books of energy do not close at t = {:.6g} s, step {}: the motion is not that of the soil",
-                  context.state.ledger.time, context.state.ledger.steps),
+      fmt::format("the books of energy do not close {}: the motion is not that of the soil", when(context)),
       fmt::format("{:.3g} of the run's energies unaccounted for (largest_energy_error: {:g})", energy.ratio(), largest),
       fmt::format("{}; or allow more with largest_energy_error in [method], 0 for any", energy_remedy));
 }
