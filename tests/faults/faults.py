@@ -158,7 +158,10 @@ class SmallDisk:
         self.there = self.mount(f"size={size}")
 
     def mount(self, options):
-        return subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", self.folder], capture_output=True).returncode == 0
+        try:
+            return subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", self.folder], capture_output=True).returncode == 0
+        except FileNotFoundError:
+            return False
 
     def enlarge(self, size):
         return subprocess.run(["mount", "-o", f"remount,size={size}", self.folder], capture_output=True).returncode == 0
