@@ -176,8 +176,8 @@ void warn_of_idle_removals(const input::CaseOf<Dim>& input, const Body<Dim>& bod
 template <int Dim>
 void warn_of_many_frames(const input::CaseOf<Dim>& input, const Body<Dim>& body) {
   constexpr double many = 10000;
+  if (frame_count(input) <= many) return;
   const auto frames = frames_expected(input, body);
-  if (frames.count <= many) return;
   logging::warn(InputError("the output of this case is that of very many frames",
                            fmt::format("every = {:g}: about {:.3g} frames, {}", input.output.every, frames.count,
                                        as_bytes(frames.bytes)),

@@ -49,13 +49,19 @@ double seconds_of_step(const input::CaseOf<Dim>& input, Body<Dim>& body, double 
 }  // namespace
 
 template <int Dim>
-FramesExpected frames_expected(const input::CaseOf<Dim>& input, const Body<Dim>& body) {
-  FramesExpected frames;
-  frames.count = 1;
+double frame_count(const input::CaseOf<Dim>& input) {
+  double count = 1;
   for (const auto& stage : input.stages) {
     const double within = input.output.every > 0 ? std::ceil(stage.duration / input.output.every * (1 - 1e-12)) : 1;
-    frames.count += std::max(1.0, within) + (stage.remove ? 1 : 0);
+    count += std::max(1.0, within) + (stage.remove ? 1 : 0);
   }
+  return count;
+}
+
+template <int Dim>
+FramesExpected frames_expected(const input::CaseOf<Dim>& input, const Body<Dim>& body) {
+  FramesExpected frames;
+  frames.count = frame_count(input);
   const auto frame = frame_of(body);
   double numbers = frame.positions.components;
   for (const auto& field : frame.fields) numbers += field.components;
@@ -87,6 +93,8 @@ std::string expectation(const input::CaseOf<Dim>& input, Body<Dim>& body, double
   return text;
 }
 
+template double frame_count<2>(const input::CaseOf<2>&);
+template double frame_count<3>(const input::CaseOf<3>&);
 template FramesExpected frames_expected<2>(const input::CaseOf<2>&, const Body<2>&);
 template FramesExpected frames_expected<3>(const input::CaseOf<3>&, const Body<3>&);
 template std::string expectation<2>(const input::CaseOf<2>&, Body<2>&, double);

@@ -8,6 +8,10 @@
 
 namespace scarp::run {
 
+/// How many frames a run writes whose stages take all their time.
+template <int Dim>
+double frame_count(const input::CaseOf<Dim>& input);
+
 /// Of the frames of a run whose stages take all their time: how many, and bytes of all of them.
 struct FramesExpected {
   double count = 0, bytes = 0;
