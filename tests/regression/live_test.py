@@ -61,6 +61,26 @@ class Interruption(ProgramTest):
     def test_by_a_request_to_end(self):
         self.interrupt(signal.SIGTERM)
 
+    def test_a_disk_that_may_not_hold_the_results(self):
+        # The results are those of a run on a larger disk, to which they may be taken half-way: not a warning of theirs.
+        for duration, warned in ((1e13, True), (10.0, False)):
+            self.write("long.toml", replaced(COLUMN, "duration = 0.2", f"duration = {duration}"))
+            run = subprocess.Popen([cases.PROGRAM, "run", "long.toml", "--out", "r", "--threads", "1", "--overwrite"], cwd=self.folder,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            try:
+                lines = []
+                while (line := run.stderr.readline()) and "stage" not in line:
+                    lines.append(line)
+                run.send_signal(signal.SIGINT)
+                run.communicate(timeout=60)
+            finally:
+                run.kill()
+                run.wait()
+            text = "".join(lines)
+            self.assertEqual(bool(re.search(r"warning: the disk of r has \d.* free, and this run may write \d.* frames of .*B in all, checkpoints of .*B\): "
+                                            "free some, enlarge every", text)), warned, text)
+            self.assertNotIn("the disk of", "".join(json.loads(read(self.path("r", "summary.json")))["warnings"]))
+
 
 class Folders(ProgramTest):
     """One run at a time in a folder, which keeps the case as it was run."""

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
+#include <system_error>
 
 #include "scarp/base/error.hpp"
 #include "scarp/base/log.hpp"
@@ -12,6 +14,7 @@
 #include "scarp/base/zero_pages.hpp"
 #include "scarp/mesh/near.hpp"
 #include "scarp/run/expectation.hpp"
+#include "scarp/run/memory_need.hpp"
 
 namespace scarp::run {
 namespace {
@@ -187,17 +190,41 @@ void warn_of_many_frames(const input::CaseOf<Dim>& input, const Body<Dim>& body)
 }
 
 template <int Dim>
-void warn_of_losses(const Ledger<Dim>& ledger) {
+void warn_of_small_disk(const input::CaseOf<Dim>& input, const Body<Dim>& body, const std::string& folder) {
+  std::error_code none;
+  const auto space = std::filesystem::space(folder, none);
+  if (none) return;
+  const auto frames = frames_expected(input, body);
+  const double free = static_cast<double>(space.available);
+  // The next checkpoint is on the disk beside those that are kept until it is whole.
+  const auto& kept = input.output.checkpoint;
+  const double checkpoints = kept.every > 0 || kept.steps > 0 || kept.time > 0 || kept.stages
+                                 ? (kept.keep + 1 + (kept.stages ? static_cast<double>(input.stages.size()) : 0.0)) *
+                                       memory_need(input).checkpoint
+                                 : 0.0;
+  if (frames.bytes + checkpoints <= free) return;
+  // No warning for summary.json, which is the same on a larger disk.
+  logging::line(fmt::format(
+      "scarp: warning: the disk of {} has {} free, and this run may write {} ({:.6g} frames of {} in all, checkpoints "
+      "of "
+      "{}): free some, enlarge every in [output], or name another folder with --out. A run that a full disk stops goes "
+      "on with scarp resume",
+      folder, as_bytes(free), as_bytes(frames.bytes + checkpoints), frames.count, as_bytes(frames.bytes),
+      as_bytes(checkpoints)));
+}
+
+template <int Dim>
+void warn_of_losses(const Ledger<Dim>& ledger, int points) {
   if (ledger.failures > 0)
     logging::warn(
         fmt::format("{} stress updates failed in this run, and kept the stress that they had: look at the "
                     "field \"failed\" of the frames",
                     ledger.failures));
   if (ledger.last.stress.on_floor > 0)
-    logging::warn(
-        fmt::format("{} points end on the floor of p_c, where the law is not that of the soil: look at the "
-                    "field \"on_floor\" of the last frame",
-                    ledger.last.stress.on_floor));
+    logging::warn(fmt::format(
+        "{} of {} points ({:.2g} %) end on the floor of p_c, where the law is not that of the soil: look at "
+        "the field \"on_floor\" of the last frame",
+        ledger.last.stress.on_floor, points, 100 * static_cast<double>(ledger.last.stress.on_floor) / points));
   if (ledger.left_mesh > 0)
     logging::warn(
         fmt::format("{} points left the mesh and were lost: extend the mesh to where the soil goes", ledger.left_mesh));
@@ -207,8 +234,10 @@ template void warn_of_idle_removals<2>(const input::CaseOf<2>&, const Body<2>&);
 template void warn_of_idle_removals<3>(const input::CaseOf<3>&, const Body<3>&);
 template void warn_of_many_frames<2>(const input::CaseOf<2>&, const Body<2>&);
 template void warn_of_many_frames<3>(const input::CaseOf<3>&, const Body<3>&);
-template void warn_of_losses<2>(const Ledger<2>&);
-template void warn_of_losses<3>(const Ledger<3>&);
+template void warn_of_small_disk<2>(const input::CaseOf<2>&, const Body<2>&, const std::string&);
+template void warn_of_small_disk<3>(const input::CaseOf<3>&, const Body<3>&, const std::string&);
+template void warn_of_losses<2>(const Ledger<2>&, int);
+template void warn_of_losses<3>(const Ledger<3>&, int);
 template std::string points_per_element(const Body<2>&);
 template std::string points_per_element(const Body<3>&);
 template void warn_of_ignored_flip<2>(const input::CaseOf<2>&);

@@ -26,9 +26,14 @@ void warn_of_idle_removals(const input::CaseOf<Dim>& input, const Body<Dim>& bod
 template <int Dim>
 void warn_of_many_frames(const input::CaseOf<Dim>& input, const Body<Dim>& body);
 
-/// Warns, at the end of a run, of stresses that failed, points on the floor of p_c, and points that left the mesh.
+/// Warns where the disk of `folder`, which exists, has less room than all frames and checkpoints may take.
 template <int Dim>
-void warn_of_losses(const Ledger<Dim>& ledger);
+void warn_of_small_disk(const input::CaseOf<Dim>& input, const Body<Dim>& body, const std::string& folder);
+
+/// Warns, at the end of a run, of stresses that failed, of those of its `points` that are on the floor of p_c, and of
+/// points that left the mesh.
+template <int Dim>
+void warn_of_losses(const Ledger<Dim>& ledger, int points);
 
 /// Warns of a share of FLIP per step in a case whose scheme has no use for one: it is ignored, in [method] and in
 /// stages.

@@ -60,6 +60,7 @@ Outcome run_in(const input::CaseOf<Dim>& input, const Options& options) {
   const auto head = head_of(input, options, results, body);
   write_provenance(results.folder(), options, threads, head);
   const logging::Copy copy(results.folder() + "/run.log");
+  warn_of_small_disk(input, body, results.folder());
   results.frame(body, 0);
   return Runner<Dim>(input, options, threads, body, state, results, head).go();
 }
@@ -87,6 +88,7 @@ Outcome resume_in(input::CaseOf<Dim> input, const Options& options, std::optiona
   Results<Dim> results(input, options.out, std::move(lock), state.results, head.case_name);
   write_provenance(results.folder(), options, threads, head);
   const logging::Copy copy(results.folder() + "/run.log");
+  warn_of_small_disk(input, body, results.folder());
   return Runner<Dim>(input, options, threads, body, state, results, head).go();
 }
 

@@ -119,7 +119,7 @@ Outcome Runner<Dim>::go() {
   if (options_.profile) print_profile(state_.ledger);
   const bool done = !state_.stage && state_.stages.size() == input_.stages.size();
   if (done || interrupted()) say_whether_energy_closes(state_.energy);
-  warn_of_losses(state_.ledger);
+  warn_of_losses(state_.ledger, body_.point_count());
   write_summary(done ? "done" : "interrupted", "");
   if (!done && !options_.quiet) logging::info("stopped as asked; to go on with it: scarp resume " + results_.folder());
   return done ? Outcome::done : Outcome::interrupted;
