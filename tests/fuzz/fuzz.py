@@ -38,7 +38,7 @@ def main():
     parser.add_argument("--time", type=int, default=600)
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("readers", nargs="*", metavar="READER")
-    its = parser.parse_args()
+    its = parser.parse_intermixed_args()  # readers may stand after the options
     readers = its.readers or READERS
     with concurrent.futures.ThreadPoolExecutor(its.jobs) as pool:
         results = list(pool.map(lambda reader: run(its.build.resolve(), reader, its.time), readers))
